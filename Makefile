@@ -1,0 +1,48 @@
+# Everything here sets itself up: an own virtual environment, the compiled kernel, nothing global.
+#   make demo    fit a real photograph, an icon and a measured outline; pictures and files
+#   make test    every check
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+IMAGES := examples/data/images
+OUTLINES := examples/data/outlines
+KERNEL := $(wildcard kernels/*.cpp kernels/include/shapespline/*.hpp)
+
+.PHONY: demo test quick lint bench paper clean
+.DEFAULT_GOAL := demo
+
+demo: $(READY)
+	@mkdir -p demo-output
+	$(BIN)/shapespline fit $(IMAGES)/mdi_leaf-maple_256.png -o demo-output/leaf.svg --plot demo-output/leaf.png
+	$(BIN)/shapespline fit $(IMAGES)/opencv_butterfly.jpg -o demo-output/butterfly.svg --plot demo-output/butterfly.png
+	$(BIN)/shapespline fit $(OUTLINES)/hand620_closed.csv -n 36 -o demo-output/hand.json --plot demo-output/hand.png
+	$(BIN)/shapespline paper examples/data/paper/leaf840.csv --length 2 -o demo-output/paper
+	@echo "Look into demo-output: the SVG files open in a browser or in Inkscape, the pictures show the error."
+
+test: lint
+	$(BIN)/python -m pytest
+
+quick: $(READY)
+	$(BIN)/python -m pytest -m "not slow"
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+bench: $(READY)
+	$(BIN)/python -m benchmarks
+
+paper: $(READY)
+	$(BIN)/python -m benchmarks.paper
+
+clean:
+	rm -rf $(VENV) build demo-output .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks
+
+$(READY): pyproject.toml CMakeLists.txt src/shapespline/_version.py $(KERNEL)
+	@PYTHON="$(PYTHON)" sh scripts/check_tools.sh
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade pip
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dev]"
+	@touch $(READY)

@@ -1,0 +1,238 @@
+"""What the foundation must reach: kernels, memory, and the methods against each other.
+
+Every section prints a table; times are medians of several runs, ratios are formed in one run.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.interpolate import BSpline, splprep
+from scipy.spatial import cKDTree
+
+import shapespline as ss
+from shapespline.residuals import CurveProblem
+from shapespline.solvers.iteration import Limits
+from shapespline.solvers.quasi_newton import make_solver
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+DATA = Path(__file__).parent.parent / "examples" / "data"
+EQUAL_COUNT = (("hand620_closed", 36), ("leaf840_closed", 70), ("loop500_open", 24))
+PAPER = (("leaf840", 2), ("palm620", 3), ("airplane1100", 4))
+
+
+def outline(name: str, folder: str = "outlines", *, closed: bool = True) -> ss.Contour:
+    """A contour of the project's own corpus."""
+    return ss.Contour(np.loadtxt(DATA / folder / f"{name}.csv", delimiter=","), closed=closed)
+
+
+def median_seconds(call: Callable[[], object], runs: int = 7, inner: int = 1) -> float:
+    """Median over runs of the mean time of ``inner`` calls, after one call to warm up."""
+    call()
+    times = []
+    for _ in range(runs):
+        began = time.perf_counter()
+        for _ in range(inner):
+            call()
+        times.append((time.perf_counter() - began) / inner)
+    return statistics.median(times)
+
+
+def flower(n: int) -> ss.Contour:
+    """A wavy closed curve of n points."""
+    t = 2 * np.pi * np.arange(n) / n
+    r = 10 + 2 * np.cos(5 * t) + 0.7 * np.sin(12 * t)
+    return ss.Contour(np.column_stack([r * np.cos(t), r * np.sin(t)]), closed=True)
+
+
+def initial_curve_time() -> None:
+    """The initial curve of 840 points."""
+    contour = outline("leaf840_closed")
+    fresh = median_seconds(
+        lambda: ss.initial_curve(ss.Contour(contour.points, closed=True), length=8), 15, 20
+    )
+    print("## Initial curve, 840 points (validation of the input included)\n")
+    print(f"{1e3 * fresh:.2f} ms (to reach: 1 ms)\n")
+
+
+def kernel_times() -> None:
+    """Cost, gradient and Levenberg-Marquardt step, beside the same sums by scipy and numpy."""
+    print("## Kernels, 100 000 points, 40 control points, one thread: ns a point\n")
+    print("| degree | cost | cost and gradient | step | scipy and numpy | ratio |")
+    print("|---|---|---|---|---|---|")
+    contour = flower(100_000)
+    for degree in (1, 2, 3, 5, 9):
+        start = ss.initial_curve(contour, arc_length=2.0, degree=degree)
+        problem = CurveProblem(contour.points, start.spline)
+        x = problem.pack(start.spline.control_points, start.parameters)
+        nano = 1e9 / len(contour)
+        cost = nano * median_seconds(lambda p=problem, x=x: p.cost(x))
+        gradient = nano * median_seconds(lambda p=problem, x=x: p.cost_and_gradient(x))
+        step = nano * median_seconds(lambda p=problem, x=x: p.damped_step(x, 1e-3))
+        peer = nano * median_seconds(lambda p=problem, x=x: scipy_gradient(p, x), 3)
+        print(
+            f"| {degree} | {cost:.1f} | {gradient:.1f} | {step:.1f} | {peer:.0f}"
+            f" | {peer / gradient:.0f} |"
+        )
+    print("\n(to reach: cost and gradient under 30 at degree 3)\n")
+
+
+def scipy_gradient(problem: CurveProblem, x: np.ndarray) -> tuple[float, np.ndarray]:
+    """Cost and gradient of a periodic problem from scipy's design matrix."""
+    control_points, parameters = problem.unpack(x)
+    template = problem.template
+    u = np.mod(parameters, 1.0)
+    design = BSpline.design_matrix(u, template.knots, template.degree)
+    curve = template.to_scipy()
+    residuals = design @ curve.c - problem.points
+    unrolled = design.T @ residuals
+    folded = np.zeros_like(control_points)
+    np.add.at(folded, np.arange(len(unrolled)) % len(folded), unrolled)
+    along = (residuals * curve(u, nu=1)).sum(axis=1)
+    return 0.5 * float((residuals**2).sum()), np.concatenate([folded.ravel(), along])
+
+
+def million_points() -> None:
+    """Direct D-BFGS on a million points: time and peak memory, in a process of its own."""
+    print("## Direct D-BFGS, 1 000 000 points, 25 iterations\n")
+    done = subprocess.run(
+        [sys.executable, "-m", "benchmarks.foundation", "million"],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | {"OMP_NUM_THREADS": "1"},
+    )
+    print(done.stdout)
+
+
+def run_million() -> None:
+    """The child process of million_points."""
+    n = 1_000_000
+    points = np.array(flower(n).points)
+    # Everything is imported and every buffer of the first call is made before the reading.
+    ss.optimize(flower(1000), ss.initial_curve(flower(1000), 8), "d-bfgs")
+    gc.collect()
+    before = resident("VmRSS")
+    began = time.perf_counter()
+    contour = ss.Contour(points, closed=True)
+    start = ss.initial_curve(contour, arc_length=2.0)
+    limits = Limits(max_iterations=25, relative_decrease=0.0, gradient_tolerance=0.0)
+    fit = ss.optimize(contour, start, "d-bfgs", limits=limits)
+    seconds = time.perf_counter() - began
+    extra = (resident("VmHWM") - before) / n
+    first, last = fit.history[0], fit.history[-1]
+    print(
+        f"{seconds:.1f} s in all, {last.seconds:.1f} s in {last.iteration} iterations with"
+        f" {last.evaluations} evaluations; E {first.paper_error:.4g} -> {last.paper_error:.4g};\n"
+        f"peak memory over the input: {extra:.0f} bytes a point (to reach: 250)\n"
+    )
+
+
+def resident(name: str) -> int:
+    """A field of /proc/self/status in bytes (Linux)."""
+    for line in Path("/proc/self/status").read_text().splitlines():
+        if line.startswith(name):
+            return 1024 * int(line.split()[1])
+    raise SystemExit("peak memory is read from /proc/self/status: run this on Linux")
+
+
+def literal_against_sensible() -> None:
+    """Evaluations that direct D-BFGS from the sensible start needs to the literal run's error."""
+    print("## The literal reading and the sensible one: evaluations to the same error\n")
+    print("The literal run ends by itself or after 5000 evaluations.\n")
+    print("| outline, L | literal: points | E end | evaluations | sensible: points | E start |")
+    print("|---|---|---|---|---|---|")
+    rows = []
+    for name, length in PAPER:
+        contour = outline(name, "paper")
+        literal = ss.optimize(
+            contour,
+            ss.initial_curve(contour, length, reading=ss.LITERAL),
+            make_solver("d-bfgs-inverse", start_diagonal="identity", wolfe="weak"),
+            ends="free",
+            limits=Limits(max_iterations=5000, max_evaluations=5000, relative_decrease=1e-6),
+        )
+        end = literal.history[-1]
+        start = ss.initial_curve(contour, length)
+        target = Limits(
+            target_cost=end.cost, max_evaluations=5000, max_iterations=5000, relative_decrease=1e-9
+        )
+        sensible = ss.optimize(contour, start, "d-bfgs", limits=target)
+        rows.append((name, sensible.history[-1], end))
+        print(
+            f"| {name}, {length} | {literal.n_control_points} | {end.paper_error:.4f}"
+            f" | {end.evaluations} | {start.n_control_points}"
+            f" | {sensible.history[0].paper_error:.4f} |"
+        )
+    print()
+    for name, reached, end in rows:
+        verdict = (
+            "reached" if reached.cost <= end.cost else f"NOT reached ({reached.paper_error:.4f})"
+        )
+        print(
+            f"{name}: {verdict} after {reached.evaluations} evaluations,"
+            f" {reached.evaluations / end.evaluations:.3f} of the literal run's"
+        )
+    print()
+
+
+def equal_count() -> None:
+    """Errors and times at an equal number of control points, splprep in the same run."""
+    print("## Equal number of control points (box diagonal 100)\n")
+    print(
+        "| outline, points | rms | max | curve to data | ms | splprep rms | max | ms | rms ratio |"
+    )
+    print("|---|---|---|---|---|---|---|---|---|")
+    for name, count in EQUAL_COUNT:
+        closed = name.endswith("closed")
+        contour = outline(name, closed=closed)
+        fit = ss.fit_curve(contour, n_control_points=count)
+        ours = median_seconds(lambda c=contour, k=count: ss.fit_curve(c, n_control_points=k), 5)
+        s, rms, farthest = splprep_at(contour, count)
+        theirs = median_seconds(lambda c=contour, s=s: splprep(c.polyline.T, s=s, per=c.closed), 5)
+        print(
+            f"| {name}, {count} | {fit.rms_distance:.4f} | {fit.max_distance:.3f}"
+            f" | {fit.hausdorff_distance:.3f} | {1e3 * ours:.0f} | {rms:.4f} | {farthest:.3f}"
+            f" | {1e3 * theirs:.1f} | {fit.rms_distance / rms:.2f} |"
+        )
+    print()
+
+
+def splprep_at(contour: ss.Contour, count: int) -> tuple[float, float, float]:
+    """The smallest s at which splprep needs no more than ``count`` points, its rms and max."""
+    low, high = 1e-6, 1e6
+    for _ in range(50):
+        s = float(np.sqrt(low * high))
+        (knots, _, degree), _ = splprep(contour.polyline.T, s=s, per=contour.closed)
+        points = len(knots) - degree - 1 - (degree if contour.closed else 0)
+        low, high = (s, high) if points > count else (low, s)
+    (knots, coefficients, degree), _ = splprep(contour.polyline.T, s=high, per=contour.closed)
+    curve = BSpline(knots, np.transpose(coefficients), degree)
+    distance, _ = cKDTree(curve(np.linspace(0, 1, 200_001))).query(contour.points)
+    return high, float(np.sqrt((distance**2).mean())), float(distance.max())
+
+
+def main() -> None:
+    """Print every section."""
+    initial_curve_time()
+    kernel_times()
+    literal_against_sensible()
+    equal_count()
+    million_points()
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["million"]:
+        run_million()
+    else:
+        main()

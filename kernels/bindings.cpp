@@ -1,0 +1,186 @@
+// The Python face of the kernels: checks nothing, converts nothing, releases the GIL.
+//
+// Callers validate and allocate; every array is C-contiguous float64 or int64 as declared in
+// _kernels.pyi, and outputs are written in place.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+
+#include <cstdint>
+#include <optional>
+#include <tuple>
+
+#include "shapespline/bezier.hpp"
+#include "shapespline/bspline.hpp"
+#include "shapespline/cpda.hpp"
+#include "shapespline/deviation.hpp"
+#include "shapespline/footpoint.hpp"
+#include "shapespline/residuals.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+namespace ss = shapespline;
+
+namespace {
+
+template <class T, class... Extra>
+using Array = nb::ndarray<T, nb::device::cpu, nb::c_contig, Extra...>;
+using In1 = Array<const double, nb::ndim<1>>;
+using In2 = Array<const double, nb::shape<-1, 2>>;
+using Out1 = Array<double, nb::ndim<1>>;
+using Out2 = Array<double, nb::ndim<2>>;
+using OutPoints = Array<double, nb::shape<-1, 2>>;
+using OutIndices = Array<std::int64_t, nb::ndim<1>>;
+
+std::span<const double> numbers(const In1 &a) { return {a.data(), a.shape(0)}; }
+std::span<const ss::Vec2> vectors(const In2 &a) {
+    return {reinterpret_cast<const ss::Vec2 *>(a.data()), a.shape(0)};
+}
+std::span<ss::Vec2> vectors(const OutPoints &a) {
+    return {reinterpret_cast<ss::Vec2 *>(a.data()), a.shape(0)};
+}
+ss::Knots knot_vector(const In1 &knots, int degree, bool periodic) {
+    return {numbers(knots), degree, periodic};
+}
+ss::Samples samples(const In2 &points, const In1 &parameters, const std::optional<In1> &weights,
+                    int held = 0, bool control_ends_fixed = false, double stray_weight = 0.0) {
+    return {vectors(points), numbers(parameters), weights ? weights->data() : nullptr,
+            static_cast<ss::Held>(held), control_ends_fixed, stray_weight};
+}
+
+}  // namespace
+
+NB_MODULE(_kernels, m) {
+    m.attr("MAX_DEGREE") = ss::kMaxDegree;
+
+    m.def(
+        "basis_functions",
+        [](In1 knots, int degree, bool periodic, In1 parameters, Out2 values, OutIndices first) {
+            nb::gil_scoped_release release;
+            ss::basis_functions(knot_vector(knots, degree, periodic), numbers(parameters),
+                                values.data(), first.data());
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "parameters"_a.noconvert(),
+        "values"_a.noconvert(), "first"_a.noconvert());
+
+    m.def(
+        "evaluate",
+        [](In1 knots, int degree, bool periodic, In2 coefficients, In1 parameters, OutPoints out) {
+            nb::gil_scoped_release release;
+            ss::evaluate(knot_vector(knots, degree, periodic), vectors(coefficients),
+                         numbers(parameters), vectors(out).data());
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "coefficients"_a.noconvert(),
+        "parameters"_a.noconvert(), "out"_a.noconvert());
+
+    m.def(
+        "bezier_pieces",
+        [](In1 knots, int degree, In2 coefficients, OutPoints points, Out1 breakpoints) {
+            nb::gil_scoped_release release;
+            ss::dispatch_degree(degree, [&]<int Degree>() {
+                std::size_t k = 0;
+                for (const auto &piece : ss::bezier_pieces<Degree>(
+                         knot_vector(knots, degree, false), vectors(coefficients))) {
+                    std::copy_n(piece.points.begin(), Degree + 1,
+                                vectors(points).begin() + k * (Degree + 1));
+                    breakpoints.data()[k] = piece.begin;
+                    breakpoints.data()[++k] = piece.end;
+                }
+            });
+        },
+        "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "points"_a.noconvert(),
+        "breakpoints"_a.noconvert());
+
+    m.def(
+        "nearest_on_curve",
+        [](In1 knots, int degree, In2 coefficients, In2 queries, Out1 parameters,
+           Out1 distances_sq) {
+            nb::gil_scoped_release release;
+            ss::nearest_on_curve(knot_vector(knots, degree, false), vectors(coefficients),
+                                 vectors(queries), parameters.data(), distances_sq.data());
+        },
+        "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "queries"_a.noconvert(),
+        "parameters"_a.noconvert(), "distances_sq"_a.noconvert());
+
+    m.def(
+        "curve_deviation",
+        [](In1 knots, int degree, In2 coefficients, In2 vertices, double relative_gap,
+           double floor) {
+            nb::gil_scoped_release release;
+            const auto d = ss::curve_deviation(knot_vector(knots, degree, false),
+                                               vectors(coefficients), vectors(vertices),
+                                               relative_gap, floor);
+            return std::make_tuple(d.lower, d.upper, d.parameter);
+        },
+        "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "vertices"_a.noconvert(),
+        "relative_gap"_a, "floor"_a);
+
+    m.def(
+        "accumulate_chord_distances",
+        [](In2 points, std::int64_t length, bool closed, Out1 signed_sums, Out1 unsigned_sums) {
+            nb::gil_scoped_release release;
+            ss::accumulate_chord_distances(vectors(points), length, closed, signed_sums.data(),
+                                           unsigned_sums.data());
+        },
+        "points"_a.noconvert(), "length"_a, "closed"_a, "signed_sums"_a.noconvert(),
+        "unsigned_sums"_a.noconvert());
+
+    m.def(
+        "cost",
+        [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
+           std::optional<In1> weights, double stray_weight) {
+            nb::gil_scoped_release release;
+            return ss::cost(knot_vector(knots, degree, periodic), vectors(control_points),
+                            samples(points, parameters, weights, 0, false, stray_weight));
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
+        "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
+        "stray_weight"_a);
+
+    m.def(
+        "cost_and_gradient",
+        [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
+           std::optional<In1> weights, int held, bool control_ends_fixed, OutPoints control_gradient,
+           Out1 parameter_gradient) {
+            nb::gil_scoped_release release;
+            return ss::cost_and_gradient(
+                knot_vector(knots, degree, periodic), vectors(control_points),
+                samples(points, parameters, weights, held, control_ends_fixed), vectors(control_gradient),
+                parameter_gradient.data());
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
+        "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
+        "held"_a, "control_ends_fixed"_a, "control_gradient"_a.noconvert(), "parameter_gradient"_a.noconvert());
+
+    m.def(
+        "gauss_newton_diagonal",
+        [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
+           std::optional<In1> weights, Out1 control_diagonal, Out1 parameter_diagonal) {
+            nb::gil_scoped_release release;
+            ss::gauss_newton_diagonal(
+                knot_vector(knots, degree, periodic), vectors(control_points),
+                samples(points, parameters, weights),
+                {control_diagonal.data(), control_diagonal.shape(0)}, parameter_diagonal.data());
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
+        "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
+        "control_diagonal"_a.noconvert(), "parameter_diagonal"_a.noconvert());
+
+    m.def(
+        "damped_step",
+        [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
+           std::optional<In1> weights, int held, bool control_ends_fixed, double stray_weight,
+           double damping, OutPoints control_step,
+           Out1 parameter_step) {
+            nb::gil_scoped_release release;
+            const auto r = ss::damped_step(
+                knot_vector(knots, degree, periodic), vectors(control_points),
+                samples(points, parameters, weights, held, control_ends_fixed, stray_weight), damping, vectors(control_step),
+                parameter_step.data());
+            return std::make_tuple(r.solved, r.cost, r.predicted_cost, r.gradient_norm);
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
+        "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
+        "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "damping"_a, "control_step"_a.noconvert(), "parameter_step"_a.noconvert());
+}

@@ -1,0 +1,101 @@
+"""shapespline: from a 2D shape to the smallest B-spline that stays within your tolerance.
+
+The public names are loaded on first use, so that ``import shapespline`` costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from shapespline._version import __version__
+
+if TYPE_CHECKING:
+    from shapespline.contour import Contour, Frame, Shape
+    from shapespline.curve import BSplineCurve
+    from shapespline.drawing import Drawing, Fit, Piece, Status
+    from shapespline.errors import (
+        DegenerateContourError,
+        DroppedPointsWarning,
+        FormatError,
+        InvalidInputError,
+        MissingExtraError,
+        OrderError,
+        ShapesplineError,
+        UnknownFormatError,
+    )
+    from shapespline.fitting import fit_curve
+    from shapespline.formats import read, write
+    from shapespline.initial import LITERAL, SENSIBLE, InitialCurve, Reading, initial_curve
+    from shapespline.optimization import optimize
+    from shapespline.reconstruction import fit_shape
+
+# Public name -> module that defines it.
+_HOME = {
+    "BSplineCurve": "curve",
+    "Contour": "contour",
+    "DegenerateContourError": "errors",
+    "Drawing": "drawing",
+    "DroppedPointsWarning": "errors",
+    "Fit": "drawing",
+    "FormatError": "errors",
+    "Frame": "contour",
+    "InitialCurve": "initial",
+    "InvalidInputError": "errors",
+    "LITERAL": "initial",
+    "MissingExtraError": "errors",
+    "OrderError": "errors",
+    "Piece": "drawing",
+    "Reading": "initial",
+    "SENSIBLE": "initial",
+    "Shape": "contour",
+    "ShapesplineError": "errors",
+    "Status": "drawing",
+    "UnknownFormatError": "errors",
+    "fit_curve": "fitting",
+    "fit_shape": "reconstruction",
+    "initial_curve": "initial",
+    "optimize": "optimization",
+    "read": "formats",
+    "write": "formats",
+}
+
+__all__ = [
+    "LITERAL",
+    "SENSIBLE",
+    "BSplineCurve",
+    "Contour",
+    "DegenerateContourError",
+    "Drawing",
+    "DroppedPointsWarning",
+    "Fit",
+    "FormatError",
+    "Frame",
+    "InitialCurve",
+    "InvalidInputError",
+    "MissingExtraError",
+    "OrderError",
+    "Piece",
+    "Reading",
+    "Shape",
+    "ShapesplineError",
+    "Status",
+    "UnknownFormatError",
+    "__version__",
+    "fit_curve",
+    "fit_shape",
+    "initial_curve",
+    "optimize",
+    "read",
+    "write",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name in _HOME:
+        return getattr(import_module(f"shapespline.{_HOME[name]}"), name)
+    raise AttributeError(f"module 'shapespline' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

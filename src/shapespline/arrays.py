@@ -1,0 +1,51 @@
+"""Arguments turned into arrays and numbers, or into one clear sentence why not."""
+
+from __future__ import annotations
+
+from numbers import Real
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    from shapespline.typing import ArrayLike, FloatArray
+
+
+def float_array(values: ArrayLike, name: str) -> FloatArray:
+    """Values as a fresh C-contiguous float64 array of any shape.
+
+    Raises
+    ------
+    InvalidInputError
+        If they are no real numbers, or rows differ in length; the message begins with the name.
+
+    Examples
+    --------
+    >>> float_array([1, 2], "weights").tolist()
+    [1.0, 2.0]
+    """
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        raise InvalidInputError(f"{name} must not be masked; drop the masked rows first")
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind == "c":
+            raise InvalidInputError(
+                f"{name} must be real, got complex numbers; pass real and imaginary parts as two"
+                " columns"
+            )
+        return np.array(array, dtype=np.float64, order="C")
+    except InvalidInputError:
+        raise
+    except (TypeError, ValueError) as error:
+        raise InvalidInputError(
+            f"{name} must be an array of numbers, got {type(values).__name__}: {error}"
+        ) from None
+
+
+def whole_number(value: object) -> int | None:
+    """A number without fraction (3, 3.0, numpy.int64(3)) as an int; None for anything else."""
+    if isinstance(value, bool) or not isinstance(value, Real) or not float(value).is_integer():
+        return None
+    return int(float(value))

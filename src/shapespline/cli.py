@@ -1,0 +1,230 @@
+"""The command line: ``shapespline fit`` and ``shapespline paper``.
+
+Errors are one line on standard error: exit 1 for a file or value that cannot be used, 2 for a
+wrong call, 130 after Ctrl-C. Numerical packages are imported inside the commands, so that the help
+comes at once.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+import warnings
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+import shapespline as ss
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from shapespline import Drawing, Fit, Shape
+
+app = typer.Typer(
+    name="shapespline",
+    help="From a 2D shape to the smallest B-spline that stays within your tolerance.",
+    no_args_is_help=True,
+    add_completion=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+
+class Selection(StrEnum):
+    """Which outlines of a picture to take."""
+
+    all = "all"
+    longest = "longest"
+
+
+class Polarity(StrEnum):
+    """Whether the shapes of a picture are darker or lighter than its ground."""
+
+    auto = "auto"
+    dark = "dark"
+    light = "light"
+
+
+Input = Annotated[
+    Path,
+    typer.Argument(
+        metavar="INPUT", help="Outline (CSV, TXT, NPY), picture (PNG, JPEG, TIFF, BMP) or JSON."
+    ),
+]
+Closed = Annotated[
+    bool | None,
+    typer.Option("--closed/--open", help="Whether the outline is closed (default: found)."),
+]
+YDown = Annotated[
+    bool, typer.Option("--y-down", help="The y axis of the outline file runs down (CSV, NPY).")
+]
+Level = Annotated[
+    float | None,
+    typer.Option(help="Grey level between shape and ground of a picture (default: Otsu)."),
+]
+ShapePolarity = Annotated[
+    Polarity, typer.Option("--polarity", help="Dark shapes on light ground, or light on dark.")
+]
+Outlines = Annotated[
+    Selection, typer.Option("--contours", help="Outlines of a picture: all, or the longest.")
+]
+MinArea = Annotated[
+    float | None, typer.Option(help="Smallest outline of a picture, square pixels.")
+]
+Degree = Annotated[int, typer.Option(help="Degree of the curve, 1 to 9.")]
+
+
+@app.callback(invoke_without_command=True)
+def _main(
+    version: Annotated[bool, typer.Option("--version", help="Show the version and exit.")] = False,
+) -> None:
+    if version:
+        typer.echo(f"shapespline {ss.__version__}")
+        raise typer.Exit
+
+
+@app.command()
+def fit(
+    source: Input,
+    output: Annotated[Path, typer.Option("--output", "-o", help="File to write: .svg or .json.")],
+    control_points: Annotated[
+        int | None,
+        typer.Option(
+            "--control-points",
+            "-n",
+            help="Control points of each curve (default: as many as pay by an information"
+            " criterion).",
+        ),
+    ] = None,
+    degree: Degree = 3,
+    plot: Annotated[
+        Path | None,
+        typer.Option(help="Also draw data, control polygon, curve and error as a PNG picture."),
+    ] = None,
+    closed: Closed = None,
+    y_down: YDown = False,
+    level: Level = None,
+    polarity: ShapePolarity = Polarity.auto,
+    contours: Outlines = Selection.all,
+    min_area: MinArea = None,
+) -> None:
+    """Fit B-spline curves to the outlines of INPUT and write them to a file."""
+    from shapespline.formats import check_output
+
+    check_output(output)
+    if plot is not None:
+        from shapespline.plot import check_picture
+
+        check_picture(plot)
+    shape = _read(source, closed, y_down, level, polarity, contours, min_area)
+    began = time.perf_counter()
+    drawing = ss.fit_shape(shape, n_control_points=control_points, degree=degree)
+    seconds = time.perf_counter() - began
+    ss.write(output, drawing)
+    if plot is not None:
+        from shapespline.plot import plot_fit
+
+        plot_fit(drawing, plot)
+    typer.echo(_summary(output, drawing, seconds))
+
+
+@app.command()
+def paper(
+    source: Input,
+    output: Annotated[
+        Path,
+        typer.Option("--output", "-o", help="Folder for the figures and the table."),
+    ],
+    length: Annotated[
+        int, typer.Option("--length", "-L", help="Chord length L of the CPDA, in points.")
+    ] = 3,
+    literal: Annotated[
+        bool, typer.Option("--literal", help="Take the paper at its word everywhere.")
+    ] = False,
+    degree: Degree = 3,
+    closed: Closed = None,
+    y_down: YDown = False,
+    level: Level = None,
+    polarity: ShapePolarity = Polarity.auto,
+    min_area: MinArea = None,
+) -> None:
+    """Run the published method on the longest outline of INPUT: figures and a table."""
+    from shapespline.paper import check_folder, run_paper, write_report
+
+    check_folder(output)
+    shape = _read(source, closed, y_down, level, polarity, Selection.longest, min_area)
+    run = run_paper(shape.longest, length, literal=literal, degree=degree)
+    for path in write_report(run, output):
+        typer.echo(str(path))
+
+
+def _read(
+    source: Path,
+    closed: bool | None,
+    y_down: bool,
+    level: float | None,
+    polarity: Polarity,
+    contours: Selection,
+    min_area: float | None,
+) -> Shape:
+    """The shape in a file; of a JSON drawing the outlines that it was fitted to."""
+    shape = ss.read(
+        source,
+        closed=closed,
+        y_down=y_down,
+        level=level,
+        polarity=None if polarity is Polarity.auto else polarity.value,
+        contours=None if contours is Selection.all else contours.value,
+        min_area=min_area,
+    )
+    if isinstance(shape, ss.Shape):
+        return shape
+    return ss.Shape([fit.contour for fit in shape], shape.parents, shape.frame)
+
+
+def _summary(output: Path, drawing: Drawing, seconds: float) -> str:
+    """One line on what was written, and one for every fit that says more than KEPT."""
+    fits = drawing.fits
+    points = sum(fit.n_stored_points for fit in fits)
+    farthest = max(fit.hausdorff_distance for fit in fits)
+    curves = "1 curve" if len(fits) == 1 else f"{len(fits)} curves"
+    line = (
+        f"{output}: {curves}, {points} control points, data and curve within {farthest:.4g}"
+        f" of each other, {seconds:.2f} s"
+    )
+    return "\n".join([line, *_remarks(fits)])
+
+
+def _remarks(fits: tuple[Fit, ...]) -> Iterator[str]:
+    for index, fit in enumerate(fits):
+        if fit.status != ss.Status.KEPT:
+            yield f"curve {index}: {fit.status.value}"
+
+
+def _say(message: object) -> None:
+    print(f"shapespline: {message}", file=sys.stderr)
+
+
+def run() -> int:
+    """Run the command line; the exit code."""
+    warnings.showwarning = lambda message, *_, **__: _say(message)
+    warnings.simplefilter("always", ss.DroppedPointsWarning)
+    try:
+        result = app(standalone_mode=False)
+    except ss.ShapesplineError as error:
+        _say(" ".join(str(error).split()))
+        return 1
+    except typer.Exit as stop:
+        return stop.exit_code
+    except (typer.Abort, KeyboardInterrupt):
+        _say("interrupted; nothing was left half written")
+        return 130
+    except Exception as error:
+        if hasattr(error, "format_message") and hasattr(error, "exit_code"):  # click's usage errors
+            _say(f"{error.format_message()} (see shapespline --help)")
+            return int(error.exit_code)
+        raise
+    return result if isinstance(result, int) else 0

@@ -1,0 +1,305 @@
+"""Contour and Shape: validated input values.
+
+A :class:`Contour` is one outline, a :class:`Shape` is what a file holds: contours with their
+nesting. Both are immutable. Everything downstream may rely on what is checked here: finite
+float64 coordinates, no two equal neighbours, at least two distinct points (three if closed).
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.arrays import float_array
+from shapespline.errors import DegenerateContourError, DroppedPointsWarning, InvalidInputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from shapespline.typing import ArrayLike, FloatArray, IntArray
+
+# Squares of coordinates are summed everywhere; below this none of them overflows.
+LARGEST_COORDINATE = 1e100
+# Ends no farther apart than this many median steps belong to an outline that closes.
+CLOSING_GAP = 1.5
+
+
+class Frame(NamedTuple):
+    """The rectangle a drawing lives in (an image, a view box), y up, in the unit of the data."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+
+def _validated(points: ArrayLike) -> FloatArray:
+    """Points as a fresh (n, 2) float64 array, or one clear sentence why not."""
+    array = float_array(points, "points")
+    if array.ndim != 2 or array.shape[1] != 2:
+        hint = "; transpose it?" if array.ndim == 2 and array.shape[0] == 2 else ""
+        raise InvalidInputError(f"points must have shape (n, 2), got {array.shape}{hint}")
+    bad = ~np.isfinite(array).all(axis=1)
+    if bad.any():
+        first = int(np.flatnonzero(bad)[0])
+        raise InvalidInputError(
+            f"points must be finite, got {array[first].tolist()} at index {first}"
+            f" ({int(bad.sum())} such rows); remove or repair them"
+        )
+    if array.size and np.abs(array).max() > LARGEST_COORDINATE:
+        raise InvalidInputError(
+            f"points must not exceed {LARGEST_COORDINATE:g} in magnitude,"
+            f" got {np.abs(array).max():g}; rescale the data"
+        )
+    return array
+
+
+def _count_distinct(points: FloatArray) -> int:
+    """How many different points there are: 0, 1, 2 or, for 3 and more, 3."""
+    count = 0
+    while len(points) and count < 3:
+        points = points[(points != points[0]).any(axis=1)]
+        count += 1
+    return count
+
+
+def _looks_closed(points: FloatArray) -> bool:
+    """Whether the ends meet: equal, or no farther apart than neighbours usually are."""
+    if len(points) < 3:
+        return False
+    gap = float(np.hypot(*(points[0] - points[-1])))
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    return gap <= CLOSING_GAP * float(np.median(steps))
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Contour:
+    """One outline: ordered points in the plane, open or closed.
+
+    Consecutive equal points are dropped (with a :class:`DroppedPointsWarning`); the repeated
+    first point at the end of a closed outline is dropped in silence, it is a usual way to write
+    one. An open contour whose two ends coincide is *semi-closed*: it keeps both, and its seam is
+    a corner.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 2)
+        Coordinates in data units, in order along the outline.
+    closed : bool, optional
+        Whether the last point is joined to the first. Found from the gap between the ends when
+        not given.
+
+    Attributes
+    ----------
+    points : ndarray, shape (n, 2)
+        The distinct points, float64, read-only.
+    closed : bool
+    source : ndarray, shape (n_given,)
+        For each point that was given, the index in ``points`` of the one that stands for it.
+
+    Raises
+    ------
+    InvalidInputError
+        If the points are not a finite real (n, 2) array.
+    DegenerateContourError
+        If fewer than two distinct points remain (three for a closed contour).
+
+    Examples
+    --------
+    >>> square = Contour([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)])
+    >>> square.closed, len(square), square.length
+    (True, 4, 4.0)
+    """
+
+    points: FloatArray
+    closed: bool
+    source: IntArray = field(repr=False)
+
+    def __init__(self, points: ArrayLike, closed: bool | None = None) -> None:
+        array = _validated(points)
+        if closed is None:
+            closed = _looks_closed(array)
+        new = np.ones(len(array), dtype=bool)
+        new[1:] = (array[1:] != array[:-1]).any(axis=1)
+        source = np.cumsum(new) - 1
+        distinct = array[new]
+        n_dropped = len(array) - len(distinct)
+        if closed and len(distinct) > 1 and (distinct[0] == distinct[-1]).all():
+            source[source == len(distinct) - 1] = 0
+            distinct = distinct[:-1]
+        needed = 3 if closed else 2
+        n_distinct = _count_distinct(distinct)
+        if n_distinct < needed:
+            kind = "a closed" if closed else "an open"
+            raise DegenerateContourError(
+                f"points must hold at least {needed} distinct points for {kind} contour,"
+                f" got {n_distinct} (of {len(array)} given)"
+            )
+        if n_dropped:
+            warnings.warn(
+                f"dropped {n_dropped} of {len(array)} points: equal to the point before them",
+                DroppedPointsWarning,
+                stacklevel=2,
+            )
+        distinct = np.ascontiguousarray(distinct)
+        distinct.setflags(write=False)
+        object.__setattr__(self, "points", distinct)
+        object.__setattr__(self, "closed", bool(closed))
+        object.__setattr__(self, "source", source)
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    @property
+    def n_given(self) -> int:
+        """Number of points before repeated ones were dropped."""
+        return len(self.source)
+
+    @property
+    def semi_closed(self) -> bool:
+        """Whether an open contour ends where it began."""
+        return not self.closed and bool((self.points[0] == self.points[-1]).all())
+
+    @cached_property
+    def polyline(self) -> FloatArray:
+        """Vertices of the data polyline: the points, and the first again if closed."""
+        if not self.closed:
+            return self.points
+        return np.concatenate([self.points, self.points[:1]])
+
+    @cached_property
+    def arc_length(self) -> FloatArray:
+        """Cumulative length at the vertices of ``polyline``, shape (n,) or (n + 1,) if closed."""
+        steps = np.diff(self.polyline, axis=0)
+        return np.concatenate([[0.0], np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))])
+
+    @property
+    def length(self) -> float:
+        """Length of the data polyline, data units."""
+        return float(self.arc_length[-1])
+
+    @cached_property
+    def box_diagonal(self) -> float:
+        """Diagonal of the bounding box, data units."""
+        extent = self.points.max(axis=0) - self.points.min(axis=0)
+        return float(np.hypot(extent[0], extent[1]))
+
+    def at(self, arc_length: FloatArray) -> FloatArray:
+        """Points of the data polyline at given arc lengths in [0, length], shape (k, 2)."""
+        return np.column_stack(
+            [np.interp(arc_length, self.arc_length, self.polyline[:, axis]) for axis in (0, 1)]
+        )
+
+    def resampled(self, n_points: int) -> Contour:
+        """The same polyline with ``n_points`` points at equal arc length, starting at the first.
+
+        Examples
+        --------
+        >>> Contour([(0, 0), (3, 0)]).resampled(4).points[:, 0].tolist()
+        [0.0, 1.0, 2.0, 3.0]
+        """
+        stations = np.linspace(0.0, self.length, n_points, endpoint=not self.closed)
+        points = self.at(stations)
+        if not self.closed:  # interpolation may miss the ends by a rounding
+            points[0], points[-1] = self.points[0], self.points[-1]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DroppedPointsWarning)
+            return Contour(points, self.closed)
+
+
+def checked_parents(parents: Sequence[int] | None, count: int) -> tuple[int, ...]:
+    """For each of ``count`` items the index of the one around it, -1 for none (the default).
+
+    Raises
+    ------
+    InvalidInputError
+        If there are not as many, one is out of range, or the nesting runs in a circle.
+    """
+    if parents is None:
+        return (-1,) * count
+    parents = tuple(int(parent) for parent in parents)
+    if len(parents) != count:
+        raise InvalidInputError(
+            f"parents must name one parent for each: expected {count}, got {len(parents)}"
+        )
+    for child, parent in enumerate(parents):
+        if not -1 <= parent < count:
+            raise InvalidInputError(
+                f"parents must be -1 or indices below {count}, got {parent} for {child}"
+            )
+    for child in range(count):
+        if nesting_depth(parents, child) > count:
+            raise InvalidInputError(f"parents must not run in a circle, got one through {child}")
+    return parents
+
+
+def nesting_depth(parents: Sequence[int], index: int) -> int:
+    """Number of items around one; more than there are if the nesting runs in a circle."""
+    depth, parent = 0, parents[index]
+    while parent >= 0 and depth <= len(parents):
+        depth, parent = depth + 1, parents[parent]
+    return depth
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Shape:
+    """What a file holds: contours and which lies directly inside which.
+
+    Parameters
+    ----------
+    contours : sequence of Contour
+    parents : sequence of int, optional
+        For each contour the index of the smallest contour around it, -1 for none (default: none).
+    frame : Frame, optional
+        The image or view box that the contours were read from.
+
+    Examples
+    --------
+    >>> outer = Contour([(0, 0), (4, 0), (4, 4), (0, 4)], closed=True)
+    >>> inner = Contour([(1, 1), (2, 1), (2, 2)], closed=True)
+    >>> shape = Shape([outer, inner], parents=[-1, 0])
+    >>> shape.is_hole(1)
+    True
+    """
+
+    contours: tuple[Contour, ...]
+    parents: tuple[int, ...]
+    frame: Frame | None
+
+    def __init__(
+        self,
+        contours: Sequence[Contour],
+        parents: Sequence[int] | None = None,
+        frame: Frame | None = None,
+    ) -> None:
+        contours = tuple(contours)
+        if not contours:
+            raise InvalidInputError("contours must hold at least one Contour, got none")
+        for contour in contours:
+            if not isinstance(contour, Contour):
+                raise InvalidInputError(
+                    f"contours must be Contour objects, got {type(contour).__name__};"
+                    " make them with Contour(points)"
+                )
+        object.__setattr__(self, "contours", contours)
+        object.__setattr__(self, "parents", checked_parents(parents, len(contours)))
+        object.__setattr__(self, "frame", frame)
+
+    def __len__(self) -> int:
+        return len(self.contours)
+
+    def __iter__(self) -> Iterator[Contour]:
+        return iter(self.contours)
+
+    def is_hole(self, index: int) -> bool:
+        """Whether the contour lies inside an odd number of others."""
+        return nesting_depth(self.parents, index) % 2 == 1
+
+    @property
+    def longest(self) -> Contour:
+        """The contour with the longest polyline."""
+        return max(self.contours, key=lambda contour: contour.length)

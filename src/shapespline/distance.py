@@ -1,0 +1,84 @@
+"""Distances between a curve and its data, both ways, with certified upper bounds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.footpoint import nearest
+
+if TYPE_CHECKING:
+    from shapespline.contour import Contour
+    from shapespline.curve import BSplineCurve
+    from shapespline.typing import FloatArray
+
+# The bound of the distance from curve to data is tight to this part of itself ...
+RELATIVE_GAP = 1e-3
+# ... or to this part of the box diagonal where the curve lies on the data.
+FLOOR = 1e-9
+
+
+class Distances(NamedTuple):
+    """What was measured between a curve and a contour, in data units.
+
+    ``max_distance`` and ``rms_distance`` go from the points to the curve; ``reverse_distance`` is
+    the certified bound from the curve to the data polyline, ``parameters`` (n,) are the foot
+    parameters of the contour's points.
+    """
+
+    max_distance: float
+    rms_distance: float
+    reverse_distance: float
+    parameters: FloatArray
+
+    @property
+    def hausdorff_distance(self) -> float:
+        """Upper bound of the larger of both directions."""
+        return max(self.max_distance, self.reverse_distance)
+
+
+def two_sided_distance(curve: BSplineCurve, contour: Contour) -> Distances:
+    """Distances from the data to the curve and from the curve to the data polyline.
+
+    Data to curve: the distance to any curve point is an upper bound of the distance to the curve,
+    and the nearest one is taken. Curve to data: every Bezier piece of the curve is bounded by the
+    largest distance of its control points to one segment, halved until the bound is within 0.1 %
+    of a distance that a curve point really has (METHOD 6). The curve is bounded from end to end,
+    tails and closing piece included.
+
+    Notes
+    -----
+    Rigorous up to the rounding of the evaluations, for which a few units in the last place of the
+    largest coordinate are added.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> from shapespline.curve import BSplineCurve
+    >>> roof = BSplineCurve([0, 0, 0.5, 1, 1], [(0, 0), (1, 1), (2, 0)], degree=1)
+    >>> found = two_sided_distance(roof, Contour([(0, 0), (2, 0)]))
+    >>> found.max_distance < 1e-14, round(found.reverse_distance, 3)
+    (True, 1.0)
+    """
+    # Differences are formed about the middle of the data, so that its place costs no accuracy.
+    middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
+    rounding = 8.0 * float(np.finfo(float).eps * np.abs(contour.points).max())
+    centred = type(curve)(curve.knots, curve.control_points - middle, curve.degree, curve.periodic)
+    found = nearest(centred, contour.points - middle)
+    distances_sq = found.distances_sq
+    _, reverse, _ = _kernels.curve_deviation(
+        centred.knots,
+        centred.degree,
+        centred.coefficients,
+        np.ascontiguousarray(contour.polyline - middle),
+        RELATIVE_GAP,
+        FLOOR * contour.box_diagonal,
+    )
+    return Distances(
+        float(np.sqrt(distances_sq.max())) + rounding,
+        float(np.sqrt(distances_sq.mean())),
+        reverse + rounding,
+        found.parameters,
+    )

@@ -1,0 +1,231 @@
+"""Fit and Drawing: the output values that writers and plots consume.
+
+A :class:`Fit` is one curve with what was verified about it, a :class:`Drawing` is a set of fits
+with the nesting of the shape they came from.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+import numpy as np
+
+from shapespline.contour import checked_parents, nesting_depth
+from shapespline.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from scipy.interpolate import BSpline
+
+    from shapespline.contour import Contour, Frame
+    from shapespline.curve import BSplineCurve
+    from shapespline.typing import FloatArray, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class Status:
+    """How a fit ended: one of four names, and a sentence with figures and a remedy.
+
+    Two statuses are equal when their names are: ``fit.status == Status.KEPT``.
+    """
+
+    name: str
+    value: str
+
+    KEPT: ClassVar[Status]
+    EXCEEDED: ClassVar[Status]
+    BUDGET: ClassVar[Status]
+    CANCELLED: ClassVar[Status]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Status) and self.name == other.name
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def __str__(self) -> str:
+        return self.value
+
+    def saying(self, sentence: str) -> Status:
+        """The same status with its own sentence."""
+        return Status(self.name, sentence)
+
+
+Status.KEPT = Status("KEPT", "both distances are within the tolerance")
+Status.EXCEEDED = Status("EXCEEDED", "a distance exceeds the tolerance")
+Status.BUDGET = Status("BUDGET", "a budget ran out before the fit had converged")
+Status.CANCELLED = Status("CANCELLED", "the callback cancelled the fit")
+
+
+class Iteration(NamedTuple):
+    """One record of a fit's history; evaluations and seconds count from the start.
+
+    ``paper_error`` is the paper's E_i, the root of the sum of squared residuals over n - 1.
+    """
+
+    iteration: int
+    cost: float
+    paper_error: float
+    gradient_norm: float
+    evaluations: int
+    step: float
+    seconds: float
+
+
+class Piece(NamedTuple):
+    """A line, a Bezier or a spline, end to end with its neighbours."""
+
+    kind: str
+    degree: int
+    knots: FloatArray
+    control_points: FloatArray
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Fit:
+    """A curve fitted to a contour, and what is known about it.
+
+    Attributes
+    ----------
+    spline : BSplineCurve
+        The curve over [0, 1]; ``curve`` is the same as a scipy BSpline.
+    contour : Contour
+        The data.
+    parameters : ndarray, shape (n_given,)
+        The nearest foot parameter of every point that was given.
+    max_distance, rms_distance : float
+        Data to curve, data units; the maximum is an upper bound up to rounding.
+    hausdorff_distance : float
+        Certified upper bound of the larger of data -> curve and curve -> data polyline.
+    tolerance : float
+        The one asked for, or the one found: then it is ``hausdorff_distance``.
+    status : Status
+        ``status.value`` is a sentence with figures.
+    history : tuple of Iteration
+        One record per iteration, the start first.
+    method : str
+        Name of the solver.
+    outliers : ndarray
+        Indices, among the points that were given, of those left out on request.
+    """
+
+    spline: BSplineCurve
+    contour: Contour
+    parameters: FloatArray = field(repr=False)
+    max_distance: float
+    rms_distance: float
+    hausdorff_distance: float
+    tolerance: float
+    status: Status
+    history: tuple[Iteration, ...] = field(repr=False)
+    method: str
+    outliers: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64), repr=False)
+
+    @cached_property
+    def curve(self) -> BSpline:
+        """The whole result as one ``scipy.interpolate.BSpline``, periodic if smooth and closed."""
+        return self.spline.to_scipy()
+
+    @property
+    def control_points(self) -> FloatArray:
+        """Distinct control points, shape (m, 2)."""
+        return self.spline.control_points
+
+    @property
+    def n_control_points(self) -> int:
+        """Number of distinct control points."""
+        return self.spline.n_control_points
+
+    @property
+    def knots(self) -> FloatArray:
+        """Full knot array of ``curve``."""
+        return self.spline.knots
+
+    @property
+    def degree(self) -> int:
+        """Degree of ``curve``."""
+        return self.spline.degree
+
+    @property
+    def closed(self) -> bool:
+        """Whether the curve ends where it begins."""
+        ends = self.control_points[[0, -1]]
+        return self.spline.periodic or bool((ends[0] == ends[1]).all())
+
+    @property
+    def corners(self) -> FloatArray:
+        """Parameters where the curve may turn abruptly: knots of multiplicity degree or more."""
+        u, degree = self.spline.breakpoints, self.degree
+        inside = u[:-1] if self.spline.periodic else u[1:-1]
+        counts = np.searchsorted(self.knots, inside, "right") - np.searchsorted(self.knots, inside)
+        corners = inside[counts >= degree]
+        if self.closed and not self.spline.periodic:
+            corners = np.concatenate([u[:1], corners])
+        return corners
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The curve end to end as lines, Beziers or splines: here one piece."""
+        spline = self.spline
+        without_inner_knots = len(spline.breakpoints) == 2 and not spline.periodic
+        kind = "line" if spline.degree == 1 else "bezier"
+        return (
+            Piece(
+                kind if without_inner_knots else "spline",
+                spline.degree,
+                spline.knots,
+                spline.control_points,
+            ),
+        )
+
+    @property
+    def n_stored_points(self) -> int:
+        """Distinct points that a file of the pieces stores."""
+        shared = self.closed and not self.spline.periodic
+        return self.n_control_points - int(shared)
+
+    @property
+    def kept(self) -> bool:
+        """Whether both bounds are within the tolerance."""
+        return max(self.max_distance, self.hausdorff_distance) <= self.tolerance
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Drawing:
+    """Fits with the nesting of the shape they came from.
+
+    Parameters
+    ----------
+    fits : sequence of Fit
+    parents : sequence of int, optional
+        For each fit the index of the one directly around it, -1 for none (default: none).
+    frame : Frame, optional
+        The image or view box of the source.
+    """
+
+    fits: tuple[Fit, ...]
+    parents: tuple[int, ...]
+    frame: Frame | None
+
+    def __init__(
+        self, fits: Sequence[Fit], parents: Sequence[int] | None = None, frame: Frame | None = None
+    ) -> None:
+        fits = tuple(fits)
+        if not fits:
+            raise InvalidInputError("fits must hold at least one Fit, got none")
+        object.__setattr__(self, "fits", fits)
+        object.__setattr__(self, "parents", checked_parents(parents, len(fits)))
+        object.__setattr__(self, "frame", frame)
+
+    def __len__(self) -> int:
+        return len(self.fits)
+
+    def is_hole(self, index: int) -> bool:
+        """Whether the fit lies inside an odd number of others."""
+        return nesting_depth(self.parents, index) % 2 == 1
+
+    def __iter__(self) -> Iterator[Fit]:
+        return iter(self.fits)

@@ -1,0 +1,38 @@
+"""The exceptions that shapespline raises: bad input raises, not converging is a status.
+
+Every message names the argument, what was expected, what came and what to do about it.
+"""
+
+from __future__ import annotations
+
+
+class ShapesplineError(Exception):
+    """Root of every error raised on purpose by this package."""
+
+
+class InvalidInputError(ShapesplineError, ValueError):
+    """An argument has the wrong shape, type or value."""
+
+
+class DegenerateContourError(InvalidInputError):
+    """The points do not span a curve: too few distinct ones, or too few for the degree."""
+
+
+class OrderError(InvalidInputError):
+    """The points, parameters or knots are not in the order that the call needs."""
+
+
+class FormatError(ShapesplineError):
+    """A file cannot be read, or a value cannot be held by the format asked for."""
+
+
+class UnknownFormatError(FormatError):
+    """No reader or writer is registered for a file name's ending."""
+
+
+class MissingExtraError(ShapesplineError, ImportError):
+    """An optional dependency is not installed."""
+
+
+class DroppedPointsWarning(UserWarning):
+    """Points that add nothing to the shape (repeated ones) were left out."""

@@ -1,0 +1,225 @@
+"""Read shapes, write drawings: one module and one line of the registry for each format.
+
+A format's module offers ``read(path: Path, *, ...) -> Shape | Drawing`` or
+``encode(drawing: Drawing, *, ...) -> bytes`` or both. The keyword-only parameters are the
+options of the format; what is not among them is refused. Modules are imported when a file of
+their kind is met.
+"""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+from shapespline.drawing import Drawing, Fit
+from shapespline.errors import (
+    FormatError,
+    InvalidInputError,
+    ShapesplineError,
+    UnknownFormatError,
+)
+from shapespline.formats.atomic import check_target, write_atomically
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Mapping
+
+    from shapespline.contour import Shape
+
+__all__ = [
+    "FORMATS",
+    "Format",
+    "check_output",
+    "read",
+    "readable",
+    "writable",
+    "write",
+    "write_atomically",
+]
+
+
+@dataclass(frozen=True)
+class Format:
+    """A line of the registry: file name endings, and the module that knows them."""
+
+    name: str
+    suffixes: tuple[str, ...]
+    module: str
+    reads: bool = False
+    writes: bool = False
+
+
+FORMATS = (
+    Format("CSV", (".csv", ".txt", ".dat", ".xy", ".tsv"), "csv", reads=True),
+    Format("NumPy", (".npy",), "npy", reads=True),
+    Format("image", (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"), "image", reads=True),
+    Format("SVG", (".svg",), "svg", writes=True),
+    Format("JSON", (".json",), "json", reads=True, writes=True),
+)
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    closed: bool | None = None,
+    y_down: bool = False,
+    **options: object,
+) -> Shape | Drawing:
+    """Read a shape (or a drawing written earlier) from a file, its format told by its ending.
+
+    Parameters
+    ----------
+    path : path-like
+    closed : bool, optional
+        Whether the outline is closed; found from its ends if not given (CSV, NumPy).
+    y_down : bool
+        Whether y runs down in the file; it is then turned over within its own bounding box (CSV,
+        NumPy).
+    **options
+        Further options of the format, as keyword arguments of the ``read`` of its module:
+        :mod:`shapespline.formats.image` takes level, polarity, channel, contours, min_area. One
+        that is None counts as not given; one that the format does not take is refused.
+
+    Returns
+    -------
+    Shape or Drawing
+        A Drawing from the formats that hold fitted curves (JSON), else a Shape.
+
+    Raises
+    ------
+    UnknownFormatError
+        If no reader is registered for the ending.
+    InvalidInputError
+        If the format does not take an option.
+    FormatError
+        If the file is missing, empty, unreadable or broken.
+
+    Examples
+    --------
+    >>> read("outline.xyz")
+    Traceback (most recent call last):
+    ...
+    shapespline.errors.UnknownFormatError: outline.xyz: no reader for '.xyz'; readable endings: \
+.bmp .csv .dat .jpeg .jpg .json .npy .png .tif .tiff .tsv .txt .xy
+    """
+    path = Path(path)
+    reader = _function(path, "read")
+    given = {"closed": closed, "y_down": y_down or None, **options}
+    arguments = _checked(path, reader, given)
+    try:
+        _check_source(path)
+        return cast("Shape | Drawing", reader(path, **arguments))
+    except OSError as error:
+        raise FormatError(f"cannot read {path}: {error.strerror or error}") from error
+    except ShapesplineError as error:
+        if path.name in str(error):
+            raise
+        raise type(error)(f"{path.name}: {error}") from error
+
+
+def check_output(path: str | os.PathLike[str]) -> None:
+    """Raise unless :func:`write` could write there: before the work whose result is to be written.
+
+    Raises
+    ------
+    UnknownFormatError
+        If no writer is registered for the ending.
+    FormatError
+        If the folder does not exist or the file cannot be written.
+    """
+    _function(Path(path), "encode")
+    check_target(path)
+
+
+def write(path: str | os.PathLike[str], drawing: Drawing | Fit, **options: object) -> None:
+    """Write a drawing, or a single fit, to a file, its format told by its ending; whole or not at all.
+
+    Parameters
+    ----------
+    path : path-like
+    drawing : Drawing or Fit
+    **options
+        Options of the format, as keyword arguments of the ``encode`` of its module. One that is
+        None counts as not given; one that the format does not take is refused.
+
+    Raises
+    ------
+    UnknownFormatError
+        If no writer is registered for the ending.
+    InvalidInputError
+        If the format does not take an option.
+    FormatError
+        If the folder does not exist, the file cannot be written, or the format cannot hold the
+        drawing.
+    """
+    path = Path(path)
+    encode = _function(path, "encode")
+    arguments = _checked(path, encode, options)
+    check_target(path)
+    if isinstance(drawing, Fit):
+        drawing = Drawing([drawing])
+    write_atomically(path, cast("bytes", encode(drawing, **arguments)))
+
+
+def readable() -> tuple[str, ...]:
+    """File name endings that :func:`read` knows, sorted."""
+    return tuple(sorted(suffix for entry in FORMATS if entry.reads for suffix in entry.suffixes))
+
+
+def writable() -> tuple[str, ...]:
+    """File name endings that :func:`write` knows, sorted.
+
+    Examples
+    --------
+    >>> ".svg" in writable(), ".png" in writable()
+    (True, False)
+    """
+    return tuple(sorted(suffix for entry in FORMATS if entry.writes for suffix in entry.suffixes))
+
+
+def _function(path: Path, name: str) -> Callable[..., object]:
+    """Return the ``read`` or ``encode`` of the module registered for a file's ending."""
+    suffix = path.suffix.lower()
+    for entry in FORMATS:
+        if suffix in entry.suffixes and (entry.reads if name == "read" else entry.writes):
+            module = import_module(f"shapespline.formats.{entry.module}")
+            return cast("Callable[..., object]", getattr(module, name))
+    role, known = ("reader", readable()) if name == "read" else ("writer", writable())
+    ending = f"for {path.suffix!r}" if suffix else "for a name without an ending"
+    raise UnknownFormatError(
+        f"{path.name}: no {role} {ending}; {role[:4]}able endings: {' '.join(known)}"
+        if name == "read"
+        else f"{path.name}: no {role} {ending}; writable endings: {' '.join(known)}"
+    )
+
+
+def _checked(
+    path: Path, function: Callable[..., object], options: Mapping[str, object]
+) -> dict[str, object]:
+    """Options that were given, all of them known to the format's function."""
+    known = [
+        name
+        for name, parameter in inspect.signature(function).parameters.items()
+        if parameter.kind is inspect.Parameter.KEYWORD_ONLY
+    ]
+    given = {name: value for name, value in options.items() if value is not None}
+    for name in given:
+        if name not in known:
+            takes = f"take {', '.join(known)}" if known else "take no options"
+            raise InvalidInputError(
+                f"{name} is not an option for {path.name}: {path.suffix} files {takes}"
+            )
+    return given
+
+
+def _check_source(path: Path) -> None:
+    """Say in a sentence why a file cannot be read, as far as that can be seen from outside."""
+    if path.is_dir():
+        raise FormatError(f"cannot read {path}: it is a folder; name a file in it")
+    if not path.exists():
+        raise FormatError(f"cannot read {path}: there is no such file")
+    if path.is_file() and path.stat().st_size == 0:
+        raise FormatError(f"cannot read {path}: the file is empty")

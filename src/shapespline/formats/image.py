@@ -1,0 +1,132 @@
+"""Pictures, through Pillow: decoded here, traced in :mod:`shapespline.trace`."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PIL import Image, ImageOps, UnidentifiedImageError
+
+from shapespline.errors import FormatError
+from shapespline.trace import trace_image
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from shapespline.channels import Channel
+    from shapespline.contour import Shape
+    from shapespline.trace import Polarity, Selection
+
+# Told by content, not by ending. Pillow knows more, among them formats that start programs.
+CONTENTS = ("PNG", "JPEG", "TIFF", "BMP")
+# Pixels. Tracing holds about 60 bytes for each; Pillow's own limit is a little above this one.
+LARGEST_IMAGE = 80_000_000
+
+
+def read(
+    path: Path,
+    *,
+    level: float | None = None,
+    polarity: Polarity = "auto",
+    channel: Channel = "auto",
+    contours: Selection = "all",
+    min_area: float | None = None,
+) -> Shape:
+    """Trace the outlines in a PNG, JPEG, TIFF or BMP picture.
+
+    Parameters
+    ----------
+    path : Path
+    level, polarity, channel, contours, min_area
+        As in :func:`shapespline.trace.trace_image`. The unit of ``level`` is that of the
+        picture: 0 to 255, or to 65535 for 16-bit grey.
+
+    Returns
+    -------
+    Shape
+        In pixels, y up; ``frame`` is the picture.
+
+    Raises
+    ------
+    FormatError
+        If the file is no picture, is damaged, or has more than 80 megapixels.
+    DegenerateContourError
+        If there is no outline in it.
+    """
+    return trace_image(
+        load(path),
+        level=level,
+        polarity=polarity,
+        channel=channel,
+        contours=contours,
+        min_area=min_area,
+    )
+
+
+def load(path: Path) -> NDArray[Any]:
+    """Pixels of a picture as :func:`shapespline.trace.trace_image` takes them, turned upright.
+
+    Of several pages the first. Palettes and other colour models become RGB; 16-bit grey stays.
+
+    Returns
+    -------
+    ndarray, shape (h, w) or (h, w, c)
+        uint8, uint16 or float64.
+    """
+    with path.open("rb") as file, warnings.catch_warnings():
+        # Pillow warns of what it takes for a bomb; here that is an error like the others.
+        warnings.simplefilter("error", Image.DecompressionBombWarning)
+        # Damaged metadata says nothing about the pixels.
+        warnings.filterwarnings("ignore", category=UserWarning, module="PIL")
+        try:
+            picture = Image.open(file, formats=CONTENTS)
+            _check_size(*picture.size)
+            return _pixels(_upright(picture))
+        except UnidentifiedImageError as error:
+            raise FormatError(
+                "not a PNG, JPEG, TIFF or BMP picture, or damaged from the start"
+            ) from error
+        except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
+            raise FormatError(f"too large a picture: {error}") from error
+        except FormatError:
+            raise
+        except Exception as error:  # decoders raise whatever damage makes them stumble over
+            raise FormatError(f"the picture is damaged or cut off: {error}") from error
+
+
+def _check_size(width: int, height: int) -> None:
+    if width * height > LARGEST_IMAGE:
+        raise FormatError(
+            f"the picture has {width} x {height} pixels, more than {LARGEST_IMAGE // 10**6}"
+            " megapixels; scale it down"
+        )
+
+
+def _upright(picture: Image.Image) -> Image.Image:
+    """Decode, and turn the way the camera was held, as viewers do."""
+    picture.load()
+    try:
+        return ImageOps.exif_transpose(picture)
+    except Exception:  # unreadable EXIF data must not cost the picture
+        return picture
+
+
+def _pixels(picture: Image.Image) -> NDArray[Any]:
+    """Pixels in one of the few layouts that tracing knows."""
+    mode = picture.mode
+    if mode.startswith("I;16"):
+        return np.asarray(picture).astype(np.uint16)
+    if mode == "I":
+        values = np.asarray(picture)
+        # Some readers give 16-bit pictures as 32-bit integers.
+        fits = values.min() >= 0 and values.max() <= np.iinfo(np.uint16).max
+        return values.astype(np.uint16 if fits else np.float64)
+    if mode == "F":
+        return np.asarray(picture, dtype=np.float64)
+    is_grey = mode in ("1", "L", "LA", "La")
+    has_alpha = mode in ("LA", "La", "PA", "RGBA", "RGBa") or "transparency" in picture.info
+    wanted = ("LA" if has_alpha else "L") if is_grey else ("RGBA" if has_alpha else "RGB")
+    return np.asarray(picture.convert(wanted))

@@ -1,0 +1,399 @@
+"""JSON: our own format, versioned and lossless; every field of every fit, bit for bit.
+
+Version 1 is one object::
+
+    format   "shapespline"
+    version  1
+    frame    {x, y, width, height} or null
+    parents  for each fit the index of the one directly around it, -1 for none
+    fits     objects with the fields of shapespline.drawing.Fit:
+        spline       {degree, periodic, knots, control_points: distinct, as [x, y]}
+        contour      {closed, points: as [x, y], source: null if each point stands for itself}
+        parameters   one for each point that was given
+        max_distance, rms_distance, hausdorff_distance, tolerance
+        status       {name, value}
+        history      columns, one value for each iteration; null where it was not computed
+        method       name of the solver
+        outliers     indices of the points left out
+
+Numbers are written with the shortest digits that read back to the same double.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import warnings
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from shapespline.contour import Contour, Frame
+from shapespline.curve import BSplineCurve
+from shapespline.drawing import Drawing, Fit, Iteration, Status
+from shapespline.errors import DroppedPointsWarning, FormatError, InvalidInputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from shapespline.typing import FloatArray
+
+T = TypeVar("T")
+FORMAT, VERSION = "shapespline", 1
+LINE_LENGTH = 100
+DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
+FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
+FIT_FIELDS += ("status", "history", "method", "outliers")
+DRAWING_FIELDS = ("format", "version", "frame", "parents", "fits")
+COUNTS = ("iteration", "evaluations")  # the columns of the history that hold integers
+KNOWN = (Status.KEPT, Status.EXCEEDED, Status.BUDGET, Status.CANCELLED)
+STATUSES = {status.name: status for status in KNOWN}
+
+
+def encode(drawing: Drawing) -> bytes:
+    r"""Text of a JSON file that :func:`read` turns back into the same drawing.
+
+    Parameters
+    ----------
+    drawing : Drawing
+
+    Returns
+    -------
+    bytes
+        UTF-8, ASCII only; the same for the same drawing.
+
+    Raises
+    ------
+    FormatError
+        If a value is infinite, or NaN elsewhere than in a history: JSON has no such numbers.
+
+    Examples
+    --------
+    >>> from shapespline.knots import clamped_knots
+    >>> fit = Fit(
+    ...     spline=BSplineCurve(clamped_knots(2, 1), [(0, 0), (8, 0)], degree=1),
+    ...     contour=Contour([(0, 0), (8, 0)]), parameters=np.array([0.0, 1.0]),
+    ...     max_distance=0.0, rms_distance=0.0, hausdorff_distance=0.0, tolerance=0.1,
+    ...     status=Status.KEPT, history=(), method="by hand",
+    ... )
+    >>> encode(Drawing([fit])).decode().splitlines()[1]
+    ' "format": "shapespline",'
+    """
+    frame = drawing.frame
+    document = {
+        "format": FORMAT,
+        "version": VERSION,
+        "frame": None if frame is None else _numbers_of(frame._asdict(), "frame"),
+        "parents": list(drawing.parents),
+        "fits": [_fit_document(fit) for fit in drawing],
+    }
+    return (_laid_out(document, 0) + "\n").encode("ascii")
+
+
+def read(path: Path) -> Drawing:
+    """Read a drawing that :func:`encode` made.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    Drawing
+        Equal to the one written in every bit.
+
+    Raises
+    ------
+    FormatError
+        If the file is no JSON, is cut off, is of another format or version, lacks a field, has
+        one too many or one of the wrong type, or holds values that do not belong together.
+    """
+    try:
+        document = json.loads(
+            path.read_bytes().decode("utf-8"),
+            object_pairs_hook=_without_repeats,
+            parse_constant=_refused,
+        )
+    except RecursionError:
+        raise FormatError("no shapespline drawing: nested too deeply") from None
+    except ValueError as error:
+        raise FormatError(f"no JSON, or cut off: {error}") from error
+    return _drawing(document)
+
+
+# Writing
+
+
+def _fit_document(fit: Fit) -> dict[str, Any]:
+    contour, spline = fit.contour, fit.spline
+    each_itself = np.array_equal(contour.source, np.arange(len(contour)))
+    return {
+        "spline": {
+            "degree": spline.degree,
+            "periodic": spline.periodic,
+            "knots": spline.knots.tolist(),
+            "control_points": spline.control_points.tolist(),
+        },
+        "contour": {
+            "closed": contour.closed,
+            "points": contour.points.tolist(),
+            "source": None if each_itself else contour.source.tolist(),
+        },
+        "parameters": _finite(fit.parameters, "parameters"),
+        **_numbers_of({name: getattr(fit, name) for name in DISTANCES}, "fit"),
+        "status": {"name": fit.status.name, "value": fit.status.value},
+        "history": {
+            name: [_recorded(getattr(record, name), name) for record in fit.history]
+            for name in Iteration._fields
+        },
+        "method": fit.method,
+        "outliers": np.asarray(fit.outliers).tolist(),
+    }
+
+
+def _finite(array: FloatArray, name: str) -> list[float]:
+    """Values of an array, all of which JSON can hold."""
+    if not np.isfinite(array).all():
+        raise FormatError(f"{name} must be finite to be written as JSON, got NaN or infinity")
+    return [float(value) for value in array]
+
+
+def _numbers_of(fields: dict[str, float], where: str) -> dict[str, float]:
+    """Convert the fields to floats that JSON can hold."""
+    for name, value in fields.items():
+        if not math.isfinite(value):
+            raise FormatError(f"{where}.{name} must be finite to be written as JSON, got {value}")
+    return {name: float(value) for name, value in fields.items()}
+
+
+def _recorded(value: float, name: str) -> int | float | None:
+    """Value of a history record; a solver may not have computed one (NaN)."""
+    if name in COUNTS:
+        return int(value)
+    if math.isinf(value):
+        raise FormatError(f"history.{name} must be finite to be written as JSON, got {value}")
+    return None if math.isnan(value) else float(value)
+
+
+def _laid_out(value: object, indent: int) -> str:
+    """Write a value on one line if it fits, else one field a line, numbers filling theirs."""
+    line = json.dumps(value, allow_nan=False)
+    if indent + len(line) <= LINE_LENGTH or not isinstance(value, dict | list) or not value:
+        return line
+    inner, outer = "\n" + " " * (indent + 1), "\n" + " " * indent
+    if isinstance(value, dict):
+        items = [f'"{name}": {_laid_out(item, indent + 1)}' for name, item in value.items()]
+        return "{" + inner + ("," + inner).join(items) + outer + "}"
+    items = [_laid_out(item, indent + 1) for item in value]
+    lines = items if isinstance(value[0], dict) else _filled(items, LINE_LENGTH - indent - 1)
+    return "[" + inner + ("," + inner).join(lines) + outer + "]"
+
+
+def _filled(items: list[str], width: int) -> list[str]:
+    """Items joined by commas to lines no longer than a width."""
+    lines = [items[0]]
+    for item in items[1:]:
+        if len(lines[-1]) + len(item) + 3 <= width:
+            lines[-1] += ", " + item
+        else:
+            lines.append(item)
+    return lines
+
+
+# Reading: every function takes a value and where it stands, and returns it checked.
+
+
+def _without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    fields = dict(pairs)
+    if len(fields) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise FormatError(f"the field {max(names, key=names.count)!r} is given twice")
+    return fields
+
+
+def _refused(constant: str) -> float:
+    raise FormatError(f"numbers must be finite, found {constant}")
+
+
+def _object(value: object, where: str, names: tuple[str, ...]) -> dict[str, Any]:
+    """Return an object with exactly these fields."""
+    if not isinstance(value, dict):
+        raise FormatError(f"{where} must be an object, found {_kind(value)}")
+    for name in names:
+        if name not in value:
+            raise FormatError(f"{where} lacks the field {name!r}")
+    for name in value:
+        if name not in names:
+            raise FormatError(f"{where} has an unknown field {name!r}")
+    return value
+
+
+def _list(value: object, where: str) -> list[Any]:
+    if not isinstance(value, list):
+        raise FormatError(f"{where} must be an array, found {_kind(value)}")
+    return value
+
+
+def _string(value: object, where: str) -> str:
+    if not isinstance(value, str):
+        raise FormatError(f"{where} must be a string, found {_kind(value)}")
+    return value
+
+
+def _boolean(value: object, where: str) -> bool:
+    if not isinstance(value, bool):
+        raise FormatError(f"{where} must be true or false, found {_kind(value)}")
+    return value
+
+
+def _integer(value: object, where: str) -> int:
+    # Beyond 2^53 other programs round, and nothing here counts that far.
+    if not isinstance(value, int) or isinstance(value, bool) or abs(value) > 2**53:
+        raise FormatError(f"{where} must be an integer, found {_kind(value)}")
+    return value
+
+
+def _number(value: object, where: str) -> float:
+    """Return a float; programs that rewrite a file may have dropped the .0 of a whole number."""
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        raise FormatError(f"{where} must be a number, found {_kind(value)}")
+    if abs(value) > sys.float_info.max:  # 1e999, or an integer of as many digits
+        raise FormatError(f"{where} must be a number in the range of doubles")
+    return float(value)
+
+
+def _number_or_null(value: object, where: str) -> float:
+    return math.nan if value is None else _number(value, where)
+
+
+def _numbers(value: object, where: str) -> FloatArray:
+    """Return an array of floats, shape (n,)."""
+    items = _list(value, where)
+    return np.array([_number(item, f"{where}[{i}]") for i, item in enumerate(items)], dtype=float)
+
+
+def _points(value: object, where: str) -> FloatArray:
+    """Return an array of points, shape (n, 2)."""
+    rows = [_numbers(item, f"{where}[{i}]") for i, item in enumerate(_list(value, where))]
+    wrong = next((index for index, row in enumerate(rows) if len(row) != 2), None)
+    if wrong is not None:
+        raise FormatError(f"{where}[{wrong}] must hold x and y, found {len(rows[wrong])} numbers")
+    return np.array(rows, dtype=float).reshape(-1, 2)
+
+
+def _indices(value: object, where: str, first: int, count: int) -> list[int]:
+    """Return integers from ``first`` to ``count - 1``."""
+    indices = [_integer(item, f"{where}[{i}]") for i, item in enumerate(_list(value, where))]
+    for position, index in enumerate(indices):
+        if not first <= index < count:
+            raise FormatError(
+                f"{where}[{position}] must be from {first} to {count - 1}, found {index}"
+            )
+    return indices
+
+
+def _kind(value: object) -> str:
+    """Name a JSON value for a message."""
+    if isinstance(value, dict | list):
+        return "an object" if isinstance(value, dict) else "an array"
+    text = json.dumps(value)
+    return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+def _drawing(document: object) -> Drawing:
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        raise FormatError('no shapespline drawing: it does not begin with "format": "shapespline"')
+    version = _integer(document.get("version"), "version")
+    if version != VERSION:
+        raise FormatError(f"version {version} is unknown, this program reads version {VERSION}")
+    fields = _object(document, "the drawing", DRAWING_FIELDS)
+    items = _list(fields["fits"], "fits")
+    parents = _indices(fields["parents"], "parents", -1, len(items))
+    if not items or len(parents) != len(items):
+        counts = f"{len(items)} and {len(parents)}"
+        raise FormatError(f"fits and parents must be equally many, at least one, found {counts}")
+    frame = fields["frame"]
+    if frame is not None:
+        sides = _object(frame, "frame", Frame._fields)
+        frame = Frame(**{name: _number(sides[name], f"frame.{name}") for name in Frame._fields})
+    return Drawing([_fit(item, f"fits[{i}]") for i, item in enumerate(items)], parents, frame)
+
+
+def _fit(value: object, where: str) -> Fit:
+    fields = _object(value, where, FIT_FIELDS)
+    contour = _built(_contour, fields["contour"], f"{where}.contour")
+    parameters = _numbers(fields["parameters"], f"{where}.parameters")
+    if len(parameters) != contour.n_given:
+        raise FormatError(
+            f"{where}.parameters must be one for each of {contour.n_given} points,"
+            f" found {len(parameters)}"
+        )
+    outliers = _indices(fields["outliers"], f"{where}.outliers", 0, contour.n_given)
+    distances = {name: _number(fields[name], f"{where}.{name}") for name in DISTANCES}
+    return Fit(
+        spline=_built(_spline, fields["spline"], f"{where}.spline"),
+        contour=contour,
+        parameters=parameters,
+        **distances,
+        status=_status(fields["status"], f"{where}.status"),
+        history=_history(fields["history"], f"{where}.history"),
+        method=_string(fields["method"], f"{where}.method"),
+        outliers=np.array(outliers, dtype=np.int64),
+    )
+
+
+def _built(build: Callable[[object, str], T], value: object, where: str) -> T:
+    """Build a value whose own checks then speak of the file."""
+    try:
+        return build(value, where)
+    except InvalidInputError as error:
+        raise FormatError(f"{where}: {error}") from error
+
+
+def _spline(value: object, where: str) -> BSplineCurve:
+    fields = _object(value, where, ("degree", "periodic", "knots", "control_points"))
+    return BSplineCurve(
+        _numbers(fields["knots"], f"{where}.knots"),
+        _points(fields["control_points"], f"{where}.control_points"),
+        _integer(fields["degree"], f"{where}.degree"),
+        _boolean(fields["periodic"], f"{where}.periodic"),
+    )
+
+
+def _contour(value: object, where: str) -> Contour:
+    """Return the contour of the points as they were given, so that ``source`` comes back too."""
+    fields = _object(value, where, ("closed", "points", "source"))
+    points = _points(fields["points"], f"{where}.points")
+    source = list(range(len(points)))
+    if fields["source"] is not None:
+        source = _indices(fields["source"], f"{where}.source", 0, len(points))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DroppedPointsWarning)
+        contour = Contour(points[source], _boolean(fields["closed"], f"{where}.closed"))
+    if contour.source.tolist() != source or len(contour) != len(points):
+        raise FormatError(f"{where}: source does not lead to the points, or two neighbours agree")
+    return contour
+
+
+def _status(value: object, where: str) -> Status:
+    fields = _object(value, where, ("name", "value"))
+    name = _string(fields["name"], f"{where}.name")
+    if name not in STATUSES:
+        raise FormatError(f"{where}.name must be one of {', '.join(STATUSES)}, found {name!r}")
+    return STATUSES[name].saying(_string(fields["value"], f"{where}.value"))
+
+
+def _history(value: object, where: str) -> tuple[Iteration, ...]:
+    """Return the records of columns of equal length."""
+    fields = _object(value, where, Iteration._fields)
+    columns = []
+    for name in Iteration._fields:
+        check = _integer if name in COUNTS else _number_or_null
+        items = _list(fields[name], f"{where}.{name}")
+        columns.append([check(item, f"{where}.{name}[{i}]") for i, item in enumerate(items)])
+    lengths = sorted({len(column) for column in columns})
+    if len(lengths) > 1:
+        raise FormatError(f"{where} must have columns of one length, found {lengths}")
+    return tuple(Iteration(*record) for record in zip(*columns, strict=True))

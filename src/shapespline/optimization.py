@@ -1,0 +1,232 @@
+"""optimize: one start, one method, one Fit.
+
+Moves control points and location parameters together from a start, then verifies the curve.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from shapespline.arrays import float_array
+from shapespline.distance import two_sided_distance
+from shapespline.drawing import Fit, Iteration, Status
+from shapespline.errors import InvalidInputError
+from shapespline.footpoint import nondecreasing
+from shapespline.residuals import CurveProblem
+from shapespline.solvers.iteration import IterationRecord, Limits, Result, Solver, Stop, minimize
+from shapespline.solvers.levenberg_marquardt import LevenbergMarquardt
+from shapespline.solvers.quasi_newton import METHODS as QUASI_NEWTON
+from shapespline.solvers.quasi_newton import make_solver
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from shapespline.contour import Contour
+    from shapespline.curve import BSplineCurve
+    from shapespline.distance import Distances
+    from shapespline.typing import ArrayLike, FloatArray
+
+    Callback = Callable[[Iteration], bool | None]
+
+METHODS = ("levenberg-marquardt", *QUASI_NEWTON)
+# Enough for Levenberg-Marquardt to converge and for the quasi-Newton family to come near.
+DEFAULT_LIMITS = Limits(max_iterations=300, max_evaluations=2000, relative_decrease=1e-6)
+
+
+class Start(Protocol):
+    """What a run starts from: an InitialCurve, a Fit, or anything with these two."""
+
+    @property
+    def spline(self) -> BSplineCurve:
+        """The curve."""
+
+    @property
+    def parameters(self) -> FloatArray:
+        """Location parameter of every point, of the contour or as they were given."""
+
+
+def optimize(
+    contour: Contour,
+    start: Start,
+    method: str | Solver[Any, Any] = "levenberg-marquardt",
+    *,
+    tolerance: float | None = None,
+    weights: ArrayLike | None = None,
+    ends: str | None = None,
+    stray_weight: float = 0.0,
+    limits: Limits = DEFAULT_LIMITS,
+    callback: Callback | None = None,
+) -> Fit:
+    """Minimise the residuals over control points and location parameters, and verify the curve.
+
+    Knots and number of control points stay those of the start. The data are moved about their
+    middle while computing, so that their place costs no accuracy.
+
+    Parameters
+    ----------
+    contour : Contour
+    start : InitialCurve or Fit
+        Curve and parameters to start from.
+    method : str or Solver
+        ``"levenberg-marquardt"`` (parameters eliminated), ``"d-bfgs"``, ``"d-bfgs-ns"``,
+        ``"d-bfgs-inverse"``, ``"d-bfgs-inverse-ns"``, ``"oss"``, ``"oss-ns"``, ``"bfgs"``,
+        ``"l-bfgs"``; or a solver from ``solvers.quasi_newton.make_solver``, which takes the start
+        diagonal, the Wolfe conditions and the memory.
+    tolerance : float, optional
+        Stop as soon as no residual is longer, data units; the promise is then checked both ways.
+    weights : array_like, shape (n_given,), optional
+        One positive weight per point that was given.
+    ends : {"interpolated", "fitted", "free"}, optional
+        Of an open curve: held on the first and last point (default), held by their parameters
+        only, or not held at all.
+    limits : Limits
+        Iterations, evaluations and the tests of convergence.
+    callback : callable, optional
+        Called with every Iteration; a true answer cancels, and the best curve so far is returned.
+
+    Raises
+    ------
+    InvalidInputError
+        For an unknown method, or a start or weights that do not match the contour.
+
+    Examples
+    --------
+    >>> from shapespline import Contour, initial_curve
+    >>> t = np.linspace(0, 2 * np.pi, 240, endpoint=False)
+    >>> r = 10 + 2 * np.cos(5 * t)
+    >>> flower = Contour(np.column_stack([r * np.cos(t), r * np.sin(t)]), closed=True)
+    >>> fit = optimize(flower, initial_curve(flower, length=8))
+    >>> fit.n_control_points, fit.rms_distance < 0.4, fit.status == Status.KEPT
+    (10, True, True)
+    """
+    solver, name = _solver(method)
+    spline = start.spline
+    if ends is None:
+        ends = "free" if spline.periodic else "interpolated"
+    if tolerance is not None and not tolerance > 0:
+        raise InvalidInputError(f"tolerance must be positive, got {tolerance!r}; in data units")
+    middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
+    problem = CurveProblem(
+        contour.points - middle,
+        spline,
+        checked_weights(weights, contour),
+        ends=ends,
+        stray_weight=stray_weight,
+    )
+    if tolerance is not None:
+        limits = _stopping_at(limits, tolerance, problem)
+    n = len(contour)
+
+    def iteration(record: IterationRecord) -> Iteration:
+        error = float(np.sqrt(2.0 * record.cost / max(n - 1, 1)))
+        return Iteration(record.iteration, record.cost, error, *_rest(record))
+
+    result = minimize(
+        solver,
+        problem,
+        problem.pack(spline.control_points - middle, _start_parameters(start, contour)),
+        limits=limits,
+        callback=None if callback is None else lambda record: callback(iteration(record)),
+    )
+    fitted = problem.curve(result.x)
+    curve = type(fitted)(
+        fitted.knots, fitted.control_points + middle, fitted.degree, fitted.periodic
+    )
+    found = two_sided_distance(curve, contour)
+    bound = found.hausdorff_distance
+    return Fit(
+        spline=curve,
+        contour=contour,
+        parameters=found.parameters[contour.source],
+        max_distance=found.max_distance,
+        rms_distance=found.rms_distance,
+        hausdorff_distance=bound,
+        tolerance=bound if tolerance is None else float(tolerance),
+        status=_status(result, found, tolerance),
+        history=tuple(iteration(record) for record in result.history),
+        method=name,
+    )
+
+
+def _solver(method: str | Solver[Any, Any]) -> tuple[Solver[Any, Any], str]:
+    """The solver and its name."""
+    if not isinstance(method, str):
+        return method, type(method).__name__
+    if method not in METHODS:
+        raise InvalidInputError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
+    if method == "levenberg-marquardt":
+        return LevenbergMarquardt(), method
+    return make_solver(method), method
+
+
+def checked_weights(weights: ArrayLike | None, contour: Contour) -> FloatArray | None:
+    """One weight per contour point: those of points that coincide add up."""
+    if weights is None:
+        return None
+    given = float_array(weights, "weights")
+    if given.shape != (contour.n_given,):
+        raise InvalidInputError(
+            f"weights must have shape ({contour.n_given},), one per point, got {given.shape}"
+        )
+    if not (np.isfinite(given).all() and (given > 0).all()):
+        raise InvalidInputError("weights must be positive and finite; leave points out instead")
+    summed = np.zeros(len(contour))
+    np.add.at(summed, contour.source, given)
+    return summed
+
+
+def _start_parameters(start: Start, contour: Contour) -> FloatArray:
+    """The start's parameters, one per contour point, unwrapped and in data order."""
+    parameters = start.parameters
+    if len(parameters) == contour.n_given != len(contour):
+        _, first = np.unique(contour.source, return_index=True)
+        parameters = parameters[first]
+    if len(parameters) != len(contour):
+        raise InvalidInputError(
+            f"start must have one parameter per point: expected {len(contour)},"
+            f" got {len(parameters)}; make it from the same contour"
+        )
+    if not start.spline.periodic:
+        return nondecreasing(parameters)
+    begin, end = start.spline.domain
+    return nondecreasing(np.unwrap(parameters, period=end - begin), end - begin)
+
+
+def _stopping_at(limits: Limits, tolerance: float, problem: CurveProblem) -> Limits:
+    """The limits, and a stop where no residual exceeds the tolerance."""
+
+    def reached(x: FloatArray) -> bool:
+        residuals = problem.curve(x)(problem.unpack(x)[1]) - problem.points
+        return float(np.hypot(residuals[:, 0], residuals[:, 1]).max()) <= tolerance
+
+    fields = {name: getattr(limits, name) for name in limits.__dataclass_fields__}
+    return Limits(**(fields | {"reached": reached}))
+
+
+def _rest(record: IterationRecord) -> tuple[float, int, float, float]:
+    return record.gradient_norm, record.evaluations, record.step, record.seconds
+
+
+def _status(result: Result, found: Distances, tolerance: float | None) -> Status:
+    """What was reached, as a sentence with figures."""
+    figures = f"data to curve {found.max_distance:.6g}, curve to data {found.reverse_distance:.6g}"
+    steps = f"after {result.history[-1].iteration} iterations ({result.stop.value})"
+    if result.stop is Stop.CANCELLED:
+        return Status.CANCELLED.saying(f"cancelled by the callback {steps}: {figures}")
+    kept = tolerance is None or found.hausdorff_distance <= tolerance
+    if not kept and result.stop is Stop.TARGET:
+        return Status.EXCEEDED.saying(
+            f"the data are within {tolerance:.6g} of the curve but not the curve of the data:"
+            f" {figures}; take more control points"
+        )
+    if result.stop in (Stop.ITERATIONS, Stop.EVALUATIONS):
+        return Status.BUDGET.saying(f"stopped {steps}: {figures}")
+    if not kept:
+        return Status.EXCEEDED.saying(
+            f"tolerance {tolerance:.6g} not reached {steps}: {figures};"
+            " take more control points or a larger tolerance"
+        )
+    promise = "no tolerance asked for" if tolerance is None else f"tolerance {tolerance:.6g} kept"
+    return Status.KEPT.saying(f"{promise}, ended {steps}: {figures}")

@@ -1,0 +1,44 @@
+"""What every test may use: the corpus of real shapes, and hypothesis's profile."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import settings
+
+from shapespline.contour import Contour
+
+ROOT = Path(__file__).resolve().parents[1]
+OUTLINES = ROOT / "examples" / "data" / "outlines"
+MORE_OUTLINES = ROOT.parent / "shared" / "data"
+
+# The same examples on every run: a failure in CI is a failure at the desk.
+settings.register_profile("shapespline", deadline=None, derandomize=True, max_examples=50)
+settings.load_profile("shapespline")
+
+
+def read_outline(path, closed):
+    if not path.exists():
+        pytest.skip(f"{path.name} is not there: run this test where {path.parent} is")
+    return Contour(np.loadtxt(path, delimiter=","), closed)
+
+
+@pytest.fixture(scope="session")
+def outline():
+    """The contour of a file of examples/data/outlines by its name, open if the name says so."""
+    return lambda name: read_outline(OUTLINES / f"{name}.csv", not name.endswith("_open"))
+
+
+@pytest.fixture(scope="session")
+def more_outlines():
+    """Contours of a folder of the larger collection beside the project, None for any number."""
+
+    def contours(folder, most=None):
+        paths = sorted((MORE_OUTLINES / folder).glob("*.csv"))
+        if not paths:
+            pytest.skip(f"the larger collection of outlines is not at {MORE_OUTLINES}")
+        return [(path.stem, read_outline(path, None)) for path in paths[:most]]
+
+    return contours

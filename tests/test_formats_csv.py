@@ -1,0 +1,153 @@
+"""Delimited text: every dialect gives the numbers that were written, every fault its line."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from shapespline.errors import DegenerateContourError, FormatError
+from shapespline.formats import csv, read
+
+numbers = st.floats(-1e12, 1e12, allow_nan=False)
+point_lists = st.lists(st.tuples(numbers, numbers), min_size=1, max_size=12)
+# What stands between the columns, and the decimal mark that goes with it.
+separations = st.sampled_from(
+    [
+        (",", "."),
+        (", ", "."),
+        (";", "."),
+        (";", ","),
+        (" ; ", ","),
+        ("\t", "."),
+        ("\t", ","),
+        (" ", "."),
+        ("   ", ","),
+        (",\t", "."),
+    ]
+)
+headers = st.sampled_from(["", "x,y", "x;y", "x y", "X (mm)\tY (mm)", '"x","y"', "NACA 2412"])
+comments = st.sampled_from(["", "# a comment, with 1,2", "#", "   # indented"])
+
+
+def written(points, separation, header="", comment="", newline="\n", tail=""):
+    between, decimal = separation
+    lines = [line for line in (comment, header) if line]
+    lines += [between.join(repr(v).replace(".", decimal) for v in point) for point in points]
+    if comment:
+        lines.insert(len(lines) // 2 + 1, comment)
+    return newline.join(lines) + tail
+
+
+@given(
+    point_lists,
+    separations,
+    headers,
+    comments,
+    st.sampled_from(["\n", "\r\n", "\r"]),
+    st.sampled_from(["", "\n", "\n\n  \n\n"]),
+    st.sampled_from(["utf-8", "utf-8-sig", "latin-1", "utf-16"]),
+)
+def test_every_dialect_is_read_exactly(
+    points, separation, header, comment, newline, tail, encoding
+):
+    text = written(points, separation, header, comment, newline, tail)
+    assert np.array_equal(csv.parse(text.encode(encoding)), np.array(points))
+
+
+@pytest.mark.parametrize(
+    ("text", "points"),
+    [
+        ("1,2\n3,4\n", [(1, 2), (3, 4)]),
+        ("1,5 2,5\n3 4\n", [(1.5, 2.5), (3, 4)]),  # blanks separate: the comma is decimal
+        ("1 2\n1,5 2,5\n", [(1, 2), (1.5, 2.5)]),  # ... also where the first line shows none
+        ("1;2\n1,5;2\n", [(1, 2), (1.5, 2)]),
+        ("1, 2\n", [(1, 2)]),  # a comma at a field's end separates
+        ("  1\t 2  \n", [(1, 2)]),
+        ("1,2 # inline\n\n\n3,4\n", [(1, 2), (3, 4)]),
+        ('"1.5","-2e3"\n', [(1.5, -2000)]),
+        ("+1,-.5\n1.,1E+2\n", [(1, -0.5), (1, 100)]),
+    ],
+)
+def test_by_hand(text, points):
+    assert csv.parse(text.encode()).tolist() == [list(map(float, point)) for point in points]
+
+
+def test_latin_1_header_is_no_obstacle():
+    assert csv.parse("x (µm);y (µm)\n1;2\n".encode("latin-1")).tolist() == [[1.0, 2.0]]
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("1,2\n3,4,5\n", r"line 2: expected 2 columns \(x and y\), found 3: '3,4,5'"),
+        ("1,2,3\n4,5,6\n", "line 1: expected 2 columns .* found 3"),
+        ("x,y,z\n1,2,3\n", "line 1: expected 2 columns .* found 3"),
+        ("1\n2\n", "line 1: expected 2 columns .* found 1"),
+        ("1,2\n3\n", "line 2: expected 2 columns .* found 1"),
+        ("1,2\n3,4,\n", "line 2: expected 2 columns .* found 3"),
+        ("x,y\n1,2\n\n# note\n3,four\n", "line 5: 'four' is not a number"),
+        ("1,abc\n2,3\n", "line 1: 'abc' is not a number"),  # half a line of numbers: no header
+        ("x,y\nx,y\n1,2\n", "line 1: 'x' is not a number"),
+        ("1,2\n3,1_000\n", "line 2: '1_000' is not a number"),
+        ("1,2\n3,\n", "line 2: '' is not a number"),
+        ("1,2\nnan,4\n", "line 2: 'nan' is not finite"),
+        ("1,2\n3,-inf\n", "line 2: '-inf' is not finite"),
+        ("nan,nan\n1,2\n", "line 1: 'nan' is not finite"),
+        ("1,2\n3,1e999\n", "line 2: '1e999' is not finite"),
+        ("1.234,5;6\n", "line 1: '1.234.5' is not a number"),  # no thousands separators
+        ("\n# only comments\n\n", "no points"),
+        ("lorem ipsum dolor\nsit amet\n", "line 1: expected 2 columns .* found 3"),
+    ],
+)
+def test_a_fault_is_named_with_its_line(text, complaint):
+    with pytest.raises(FormatError, match=complaint):
+        csv.parse(text.encode())
+
+
+def test_binary_data_is_refused():
+    with pytest.raises(FormatError, match="binary"):
+        csv.parse(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")
+
+
+@given(st.binary(max_size=200))
+def test_any_bytes_give_points_or_a_format_error(data):
+    try:
+        points = csv.parse(data)
+    except FormatError:
+        return
+    assert points.shape[1] == 2
+    assert np.isfinite(points).all()
+
+
+SQUARE = "0,0\n4,0\n4,1\n0,1\n"
+
+
+def test_closedness(tmp_path):
+    path = tmp_path / "square.csv"
+    path.write_text(SQUARE + "0,0\n")
+    (repeated,) = read(path)
+    assert repeated.closed
+    assert len(repeated) == 4
+    assert read(path, closed=False).longest.semi_closed
+    path.write_text("0,0\n1,0\n2,0\n3,1\n")
+    assert not read(path).longest.closed
+    assert read(path, closed=True).longest.closed
+
+
+def test_y_down_turns_over_within_the_box(tmp_path):
+    path = tmp_path / "triangle.txt"
+    path.write_text("0 10\n4 10\n4 12\n")
+    assert read(path, y_down=True, closed=True).longest.points.tolist() == [
+        [0, 12],
+        [4, 12],
+        [4, 10],
+    ]
+
+
+def test_too_few_points_name_the_file(tmp_path):
+    path = tmp_path / "dot.csv"
+    path.write_text("1,2\n")
+    with pytest.raises(DegenerateContourError, match=r"dot\.csv: points must hold at least"):
+        read(path)

@@ -1,0 +1,349 @@
+"""Traced outlines lie where the edge is, nest as it nests, and fail in a sentence."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from matplotlib.path import Path as MplPath
+
+from shapespline.contour import Frame
+from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.trace import nested, otsu_level, trace_image
+
+LEAST_SPACING = 1e-3  # pixels; closer points are merged
+
+
+def centres(height, width):
+    """Coordinates of pixel centres, y up."""
+    rows, columns = np.mgrid[:height, :width]
+    return columns + 0.5, height - (rows + 0.5)
+
+
+def disc(centre, radius, ramp, side):
+    """8-bit picture that falls linearly from 255 to 0 across a circle, over ``ramp`` pixels."""
+    x, y = centres(side, side)
+    distance = np.hypot(x - centre[0], y - centre[1]) - radius
+    return np.rint(255 * np.clip(0.5 - distance / ramp, 0, 1)).astype(np.uint8)
+
+
+def signed_area(points):
+    x, y = points.T
+    return 0.5 * float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+
+
+def summary(shape):
+    """Areas and lengths, which no turn or flip of the picture changes."""
+    measures = [(abs(signed_area(c.points)), c.length) for c in shape]
+    return np.array(sorted(measures))
+
+
+def blobs(seed, side=48):
+    """Smooth random picture with several nested regions, and integer values."""
+    x, y = centres(side, side)
+    rng = np.random.default_rng(seed)
+    waves = [
+        rng.normal() * np.sin((fx * x + fy * y) * 2 * np.pi / side + rng.uniform(0, 6))
+        for fx in range(4)
+        for fy in range(-3, 4)
+    ]
+    total = sum(waves)
+    return np.rint(127.5 + 120 * total / np.abs(total).max()).astype(np.uint8)
+
+
+@given(
+    st.floats(5, 30),
+    st.tuples(st.floats(38, 42), st.floats(38, 42)),
+    st.floats(2.5, 6),
+    st.booleans(),
+)
+def test_a_disc_is_traced_within_the_error_of_linear_interpolation(radius, centre, ramp, dark):
+    image = disc(centre, radius, ramp, 80)
+    if dark:
+        image = 255 - image
+    shape = trace_image(image, level=127.5)
+    assert len(shape) == 1
+    points = shape.longest.points
+    off = np.abs(np.hypot(points[:, 0] - centre[0], points[:, 1] - centre[1]) - radius)
+    # Along a grid line the distance to a circle is convex, its second derivative at most 1 / r;
+    # interpolating over one pixel errs by an eighth of that. Rounding moves values by 1/2 of 255.
+    assert off.max() <= 1 / (8 * (radius - 1)) + 0.5 * ramp / 255
+    assert signed_area(points) > 0
+    assert shape.frame == Frame(0, 0, 80, 80)
+
+
+def test_otsu_finds_the_middle_of_an_edge_by_itself():
+    given_level = trace_image(disc((40, 40), 20, 3, 80), level=127.5)
+    found = trace_image(disc((40, 40), 20, 3, 80))
+    # Both classes are even regions of 0 and 255 with a thin seam: their medians are exact.
+    assert np.array_equal(found.longest.points, given_level.longest.points)
+
+
+def test_an_axis_aligned_edge_by_hand():
+    # Columns 0..3 white, column 4 covered by 60 %, the rest black: true edge at x = 4.6.
+    image = np.zeros((8, 10), dtype=np.uint8)
+    image[:, :4], image[:, 4] = 255, 153
+    points = trace_image(image, level=127.5, polarity="light").longest.points
+    # Column 4's centre (4.5) has 153, column 5's has 0: 127.5 lies at 4.5 + 25.5 / 153.
+    assert points[:, 0].max() == pytest.approx(4.5 + 25.5 / 153, abs=1e-12)
+    # Closed along the picture's border, exactly on it.
+    assert points.min(axis=0).tolist() == [0.0, 0.0]
+    assert points[:, 1].max() == 8.0
+
+
+def test_a_shape_that_fills_the_picture_but_for_a_hole():
+    image = np.full((20, 30), 10, dtype=np.uint8)
+    image[5:9, 10:20] = 200
+    shape = trace_image(image, level=100, polarity="dark")
+    assert shape.parents == (-1, 0)
+    # The frame with its corners cut half a pixel from each side, and the hole likewise.
+    assert signed_area(shape.contours[0].points) == pytest.approx(20 * 30 - 4 / 8)
+    hole = shape.contours[1].points
+    assert hole.min(axis=0) == pytest.approx([10, 11], abs=0.03)
+    assert hole.max(axis=0) == pytest.approx([20, 15], abs=0.03)
+
+
+def test_nesting_and_orientation_by_hand():
+    image = np.zeros((60, 80), dtype=np.uint8)
+    image[5:55, 5:55] = 255
+    image[10:50, 10:50] = 0
+    image[20:40, 20:40] = 255
+    image[25:35, 25:35] = 0
+    image[20:40, 60:75] = 255
+    shape = trace_image(image)
+    assert shape.parents == (-1, 0, 1, -1, 2)
+    assert [shape.is_hole(k) for k in range(5)] == [False, True, False, False, True]
+    assert [np.sign(signed_area(c.points)) for c in shape] == [1, -1, 1, 1, -1]
+
+
+@given(st.integers(0, 10_000))
+@settings(max_examples=40)
+def test_nesting_agrees_with_an_independent_point_in_polygon(seed):
+    shape = trace_image(blobs(seed), min_area=0)
+    paths = [MplPath(c.polyline, closed=True) for c in shape]
+    areas = [abs(signed_area(c.points)) for c in shape]
+    for k, contour in enumerate(shape):
+        around = [
+            j for j in range(len(shape)) if j != k and paths[j].contains_point(contour.points[0])
+        ]
+        assert shape.parents[k] == min(around, key=areas.__getitem__, default=-1)
+        assert shape.is_hole(k) == (len(around) % 2 == 1)
+        assert (signed_area(contour.points) > 0) != shape.is_hole(k)
+
+
+@given(st.integers(0, 10_000), st.integers(40, 210))
+@settings(max_examples=40)
+def test_no_two_points_coincide_even_where_pixels_lie_on_the_level(seed, level):
+    image = blobs(seed)
+    image[::3] = np.where(np.abs(image[::3].astype(int) - level) < 30, level, image[::3])
+    if not image.min() < level <= image.max():
+        return
+    for pixels in (image, image.astype(float)):  # DroppedPointsWarning would be an error
+        for contour in trace_image(pixels, level=level, min_area=0):
+            assert np.hypot(*np.diff(contour.polyline, axis=0).T).min() > LEAST_SPACING
+            assert contour.points.min() >= 0
+            assert contour.points.max() <= 48
+
+
+@given(st.integers(0, 10_000))
+@settings(max_examples=25)
+def test_turned_flipped_and_inverted_pictures_give_the_same_outlines(seed):
+    image = blobs(seed)
+    expected = summary(trace_image(image, level=127.5, polarity="light"))
+    for other in (np.rot90(image), image[::-1], image[:, ::-1]):
+        found = summary(trace_image(other, level=127.5, polarity="light"))
+        assert found == pytest.approx(expected, abs=1e-9)
+    found = summary(trace_image(255 - image, level=127.5, polarity="dark"))
+    assert found == pytest.approx(expected, abs=1e-9)
+
+
+def test_polarity_is_told_by_the_rim():
+    image = disc((40, 40), 20, 3, 80)
+    light = trace_image(image)
+    dark = trace_image(255 - image)
+    assert np.allclose(light.longest.points, dark.longest.points, atol=1e-9)
+    # Told otherwise, the ground is the shape and the disc its hole.
+    ground = trace_image(image, polarity="dark")
+    assert ground.parents == (-1, 0)
+    assert ground.longest.points.min() == 0
+
+
+@given(
+    st.lists(st.integers(0, 30), min_size=2, max_size=40).filter(lambda v: len(set(v)) > 1),
+    st.sampled_from([np.uint8, np.uint16]),
+)
+def test_otsu_splits_where_the_between_class_variance_is_largest(values, dtype):
+    values = np.array(values, dtype=dtype)
+    level = otsu_level(values)
+
+    def variance(cut):
+        low, high = values[values < cut], values[values >= cut]
+        return len(low) * len(high) * (high.mean() - low.mean()) ** 2
+
+    best = max(variance(cut) for cut in np.unique(values)[1:])
+    splits = [cut for cut in np.unique(values)[1:] if variance(cut) >= best * (1 - 1e-12)]
+    # The lower of the two middle values is the median of an even number.
+    medians = [
+        [np.sort(part)[(len(part) - 1) // 2] for part in (values[values < c], values[values >= c])]
+        for c in splits
+    ]
+    assert level in [0.5 * (float(low) + float(high)) for low, high in medians]
+
+
+def test_specks_are_dropped_and_counted_in_square_pixels():
+    image = np.zeros((100, 100), dtype=np.uint8)
+    image[20:60, 20:60] = 255
+    image[80:84, 80:84] = 255  # 15.5 square pixels, corners cut
+    image[10, 10] = 255  # 0.5
+    assert len(trace_image(image)) == 2
+    assert len(trace_image(image, min_area=0)) == 3
+    assert len(trace_image(image, min_area=15.6)) == 1
+    with pytest.raises(DegenerateContourError, match=r"encloses 2000 .* the largest 1\.6e\+03"):
+        trace_image(image, min_area=2000)
+
+
+def test_the_longest_outline_alone():
+    image = np.zeros((60, 60), dtype=np.uint8)
+    image[5:55, 5:55] = 255
+    image[10:50:4, 10:50] = 0  # ten slits, each longer round than ...
+    assert len(trace_image(image)) == 11
+    shape = trace_image(image, contours="longest")
+    assert len(shape) == 1
+    assert shape.longest.length == pytest.approx(4 * 50, abs=4)  # ... but shorter than the square
+    assert signed_area(shape.longest.points) > 0
+
+
+def glyph(shape=(40, 40)):
+    cover = np.zeros(shape)
+    cover[10:30, 15:25] = 1.0
+    cover[10:30, 14] = 0.25
+    return cover
+
+
+def painted(foreground, background, cover, dtype=np.uint8):
+    mixed = cover[..., None] * np.array(foreground) + (1 - cover[..., None]) * np.array(background)
+    return np.rint(mixed).astype(dtype)
+
+
+EXPECTED = trace_image(np.rint(255 * glyph()).astype(np.uint8), level=127.5)
+
+
+@pytest.mark.parametrize(
+    ("foreground", "background"),
+    [
+        ((0, 0, 0), (255, 255, 255)),
+        ((255, 255, 255), (0, 0, 0)),
+        ((200, 30, 30), (30, 117, 30)),  # of the same lightness: 77.7 and 77.7
+        ((255, 255, 0), (255, 255, 255)),
+        ((0, 0, 90), (0, 0, 0)),
+    ],
+)
+def test_what_differs_from_the_rim_is_found_in_any_colour(foreground, background):
+    shape = trace_image(painted(foreground, background, glyph()))
+    # Rounding of the grey seam: half a unit of at least 90, over one pixel.
+    assert np.allclose(shape.longest.points, EXPECTED.longest.points, atol=1 / 90)
+
+
+@pytest.mark.parametrize("colour", [(0, 0, 0), (255, 255, 255), (90, 200, 20)])
+@pytest.mark.parametrize("hidden", [0, 255])
+def test_one_colour_on_a_transparent_ground_is_its_alpha(colour, hidden):
+    cover = glyph()
+    image = painted(colour, (hidden,) * 3, np.ceil(cover))
+    image = np.dstack([image, np.rint(255 * cover).astype(np.uint8)])
+    assert np.array_equal(trace_image(image).longest.points, EXPECTED.longest.points)
+    assert np.array_equal(
+        trace_image(image, channel="alpha").longest.points, EXPECTED.longest.points
+    )
+
+
+@pytest.mark.parametrize("colours", [((0, 0, 0), (120, 0, 0)), ((255, 255, 255), (255, 255, 160))])
+def test_several_colours_on_a_transparent_ground_are_laid_on_what_shows_them(colours):
+    cover = glyph()
+    image = painted(colours[0], colours[0], cover)
+    image[:20] = colours[1]
+    image = np.dstack([image, np.rint(255 * cover).astype(np.uint8)])
+    points = trace_image(image).longest.points
+    assert np.abs(points.min(axis=0) - EXPECTED.longest.points.min(axis=0)).max() < 0.5
+    assert np.abs(points.max(axis=0) - EXPECTED.longest.points.max(axis=0)).max() < 0.5
+
+
+def test_channels():
+    image = painted((255, 100, 0), (0, 100, 255), glyph())
+    for channel in ("red", "blue", "grey"):
+        points = trace_image(image, channel=channel).longest.points
+        assert np.allclose(points, EXPECTED.longest.points, atol=0.02)
+    with pytest.raises(DegenerateContourError, match="every pixel has the value 100"):
+        trace_image(image, channel="green")
+
+
+@pytest.mark.parametrize(
+    ("dtype", "scale"), [(np.uint16, 257), (np.int64, 1), (np.float32, 1 / 255), (np.float64, 100)]
+)
+def test_the_unit_of_the_picture_does_not_matter(dtype, scale):
+    image = (np.rint(255 * glyph()) * scale).astype(dtype)
+    assert np.allclose(trace_image(image).longest.points, EXPECTED.longest.points, atol=0.01)
+    found = trace_image(image, level=127.5 * scale)
+    assert np.allclose(found.longest.points, EXPECTED.longest.points, atol=0.01)
+
+
+def test_a_boolean_mask_has_its_edges_half_way():
+    points = trace_image(glyph() > 0.5).longest.points
+    assert points.min(axis=0).tolist() == [15, 10]
+    assert points.max(axis=0).tolist() == [25, 30]
+
+
+@pytest.mark.parametrize("value", [0, 255])
+def test_a_constant_picture_has_no_outline(value):
+    with pytest.raises(DegenerateContourError, match=f"every pixel has the value {value}"):
+        trace_image(np.full((9, 9), value, dtype=np.uint8))
+
+
+@pytest.mark.parametrize("level", [0, 10, 201, 300, -5])
+def test_a_level_outside_the_values_has_no_outline(level):
+    image = (10 + 190 * (glyph() > 0.5)).astype(np.uint8)
+    with pytest.raises(DegenerateContourError, match="the pixels range from 10 to 200"):
+        trace_image(image, level=level)
+    assert len(trace_image(image, level=200)) == len(trace_image(image, level=11)) == 1
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.float64])
+def test_pixels_at_the_level_are_light(dtype):
+    image = (10 + 190 * (glyph() > 0.5)).astype(dtype)
+    light = trace_image(image, level=200, polarity="light")
+    assert light.longest.points.mean(axis=0) == pytest.approx([20, 20])
+    dark = trace_image(image, level=200, polarity="dark")
+    assert dark.parents == (-1, 0)
+    hole = np.round(dark.contours[1].points, 9), np.round(light.longest.points, 9)
+    assert sorted(map(tuple, hole[0])) == sorted(map(tuple, hole[1]))
+
+
+@pytest.mark.parametrize(
+    ("image", "options", "complaint"),
+    [
+        (np.zeros(5), {}, r"shape \(h, w\)"),
+        (np.zeros((5, 5, 7)), {}, r"got \(5, 5, 7\)"),
+        (np.zeros((0, 5)), {}, "at least one pixel"),
+        (np.full((5, 5), np.nan), {}, "finite"),
+        (np.zeros((5, 5), complex), {}, "real"),
+        (glyph(), {"polarity": "white"}, "polarity must be one of auto, dark, light, got 'white'"),
+        (glyph(), {"channel": "hue"}, "channel must be one of"),
+        (glyph(), {"contours": "some"}, "contours must be one of all, longest"),
+        (glyph(), {"min_area": -1}, "min_area must be at least 0"),
+        (glyph(), {"min_area": np.nan}, "min_area must be at least 0"),
+        (glyph(), {"level": np.nan}, "level must be a finite number"),
+        (glyph(), {"channel": "red"}, "needs a colour picture"),
+        (glyph(), {"channel": "alpha"}, "needs a picture with transparency"),
+    ],
+)
+def test_bad_input(image, options, complaint):
+    with pytest.raises(InvalidInputError, match=complaint):
+        trace_image(image, **options)
+
+
+def test_nested_orients_and_sorts():
+    square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    shape = nested([square[::-1], 5 * square - 2, 0.5 * square + 0.25, square + 10])
+    assert [abs(signed_area(c.points)) for c in shape] == [25, 1, 1, 0.25]
+    assert shape.parents == (-1, 0, -1, 1)
+    assert [signed_area(c.points) for c in shape] == [25, -1, 1, 0.25]
