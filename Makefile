@@ -9,7 +9,7 @@ IMAGES := examples/data/images
 OUTLINES := examples/data/outlines
 KERNEL := $(wildcard kernels/*.cpp kernels/include/shapespline/*.hpp)
 
-.PHONY: demo test quick lint bench paper clean
+.PHONY: demo test quick lint bench paper figures clean
 .DEFAULT_GOAL := demo
 
 demo: $(READY)
@@ -36,6 +36,9 @@ bench: $(READY)
 
 paper: $(READY)
 	$(BIN)/python -m benchmarks.paper
+
+figures: $(READY)
+	$(BIN)/python -m benchmarks.readme_figures
 
 clean:
 	rm -rf $(VENV) build demo-output .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks

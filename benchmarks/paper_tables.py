@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
 
-def table(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """A Markdown table; the first column to the left, the others to the right."""
-    lines = [header, ["---"] + ["---:"] * (len(header) - 1), *rows]
+def table(header: Sequence[str], rows: Iterable[Sequence[object]], n_words: int = 1) -> str:
+    """A Markdown table; the first columns hold words, the others figures, to the right."""
+    lines = [header, ["---"] * n_words + ["---:"] * (len(header) - n_words), *rows]
     return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
 
 
@@ -61,7 +61,7 @@ def lengths(runs: Sequence[OutlineRuns]) -> str:
         "time",
     )
     rows: list[Sequence[object]] = [
-        ("*published (shape of its Figure 1)*", chord, n, "not given", seconds(time), *["—"] * 4)
+        ("*published (shape of its Figure 1)*", chord, n, "not given", f"{time:.4f} s", *["—"] * 4)
         for chord, (n, time) in PUBLISHED_LENGTHS.items()
     ]
     for run in runs:
@@ -115,7 +115,7 @@ def examples(runs: Sequence[OutlineRuns]) -> str:
             )
             for entry in run.entries
         ]
-    return table(header, rows)
+    return table(header, rows, n_words=2)
 
 
 def _published(outline: str, label: str, row: Published) -> tuple[object, ...]:
@@ -187,7 +187,7 @@ def tenth(runs: Sequence[OutlineRuns]) -> str:
                 count(last),
                 run.sensible.fit.n_control_points,
                 "not reached" if direct is None else count(direct.evaluations),
-                "—" if direct is None else f"1/{near / direct.evaluations:.0f}",
+                "—" if direct is None else f"1/{count(round(near / direct.evaluations))}",
                 run.n_at_literal_count,
                 "not reached" if counted is None else count(counted.evaluations),
             )

@@ -24,38 +24,37 @@ def wrapped(knots, degree, parameters, periodic):
     return begin + np.mod(u - begin, end - begin) if periodic else u
 
 
-def span(knots, degree, u):
-    """The k with knots[k] <= u < knots[k + 1]; the first or last non-empty one outside."""
+def spans(knots, degree, parameters):
+    """For each u the k with knots[k] <= u < knots[k + 1]; the first or last non-empty outside."""
     filled = [k for k in range(degree, len(knots) - degree - 1) if knots[k] < knots[k + 1]]
-    inside = [k for k in filled if knots[k] <= u]
-    return inside[-1] if inside else filled[0]
-
-
-def basis(knots, degree, u, k, absolute=False):
-    """All basis functions of a degree at u, of the polynomials of span k: Cox and de Boor.
-
-    N_i,0 = 1 on span k alone; N_i,p = (u - u_i)/(u_i+p - u_i) N_i,p-1 + (u_i+p+1 - u)/(...)
-    N_i+1,p-1; 0/0 = 0. With absolute, of absolute values: a bound of what rounding multiplies.
-    """
-    t = np.asarray(knots, dtype=LONG)
-    size = np.abs if absolute else np.asarray
-    values = np.zeros(len(t) - 1, dtype=LONG)
-    values[k] = 1
-    for p in range(1, degree + 1):
-        longer = np.zeros(len(t) - 1 - p, dtype=LONG)
-        for i in range(len(longer)):
-            if t[i + p] > t[i]:
-                longer[i] += size(u - t[i]) / (t[i + p] - t[i]) * values[i]
-            if t[i + p + 1] > t[i + 1]:
-                longer[i] += size(t[i + p + 1] - u) / (t[i + p + 1] - t[i + 1]) * values[i + 1]
-        values = longer
-    return values
+    found = np.full(len(parameters), filled[0])
+    for k in filled:
+        found[parameters >= knots[k]] = k
+    return found
 
 
 def basis_matrix(knots, degree, parameters, periodic=False, absolute=False):
-    """Basis values at each parameter, (n, n_coefficients)."""
-    us = wrapped(knots, degree, parameters, periodic)
-    return np.array([basis(knots, degree, u, span(knots, degree, u), absolute) for u in us])
+    """Values of all basis functions at each parameter, (n, n_coefficients): Cox and de Boor.
+
+    N_i,0 = 1 on the span of u alone; N_i,p = (u - u_i)/(u_i+p - u_i) N_i,p-1
+    + (u_i+p+1 - u)/(u_i+p+1 - u_i+1) N_i+1,p-1; 0/0 = 0. Outside the domain these are the
+    polynomials of the end spans. With absolute, of absolute values: what rounding multiplies.
+    """
+    t = np.asarray(knots, dtype=LONG)
+    u = wrapped(knots, degree, parameters, periodic)
+    size = np.abs if absolute else np.asarray
+    values = np.zeros((len(u), len(t) - 1), dtype=LONG)
+    values[np.arange(len(u)), spans(t, degree, u)] = 1
+    for p in range(1, degree + 1):
+        longer = np.zeros((len(u), len(t) - 1 - p), dtype=LONG)
+        for i in range(longer.shape[1]):
+            if t[i + p] > t[i]:
+                longer[:, i] += size(u - t[i]) / (t[i + p] - t[i]) * values[:, i]
+            if t[i + p + 1] > t[i + 1]:
+                width = t[i + p + 1] - t[i + 1]
+                longer[:, i] += size(t[i + p + 1] - u) / width * values[:, i + 1]
+        values = longer
+    return values
 
 
 def folded(matrix, m):

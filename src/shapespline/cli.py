@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
     from shapespline import Drawing, Fit, Shape
 
+# Exit code after Ctrl-C: 128 and the number of the signal.
+INTERRUPTED = 130
+
 app = typer.Typer(
     name="shapespline",
     help="From a 2D shape to the smallest B-spline that stays within your tolerance.",
@@ -155,7 +158,7 @@ def paper(
     from shapespline.paper import check_folder, run_paper, write_report
 
     check_folder(output)
-    shape = _read(source, closed, y_down, level, polarity, Selection.longest, min_area)
+    shape = _read(source, closed, y_down, level, polarity, Selection.all, min_area)
     run = run_paper(shape.longest, length, literal=literal, degree=degree)
     for path in write_report(run, output):
         typer.echo(str(path))
@@ -210,21 +213,26 @@ def _say(message: object) -> None:
 
 def run() -> int:
     """Run the command line; the exit code."""
-    warnings.showwarning = lambda message, *_, **__: _say(message)
-    warnings.simplefilter("always", ss.DroppedPointsWarning)
+    with warnings.catch_warnings():
+        warnings.showwarning = lambda message, *_, **__: _say(message)
+        warnings.simplefilter("always", ss.DroppedPointsWarning)
+        return _exit_code()
+
+
+def _exit_code() -> int:
+    """Run the command; every error that a user can cause is one line on standard error."""
     try:
         result = app(standalone_mode=False)
-    except ss.ShapesplineError as error:
-        _say(" ".join(str(error).split()))
+    except (ss.ShapesplineError, OSError, MemoryError) as error:
+        _say(" ".join(str(error).split()) or type(error).__name__)
         return 1
-    except typer.Exit as stop:
-        return stop.exit_code
     except (typer.Abort, KeyboardInterrupt):
-        _say("interrupted; nothing was left half written")
-        return 130
+        result = INTERRUPTED
     except Exception as error:
-        if hasattr(error, "format_message") and hasattr(error, "exit_code"):  # click's usage errors
+        if hasattr(error, "format_message") and hasattr(error, "exit_code"):  # a usage error
             _say(f"{error.format_message()} (see shapespline --help)")
             return int(error.exit_code)
         raise
+    if result == INTERRUPTED:
+        _say("interrupted; nothing was left half written")
     return result if isinstance(result, int) else 0

@@ -128,11 +128,19 @@ def moving_average(values: FloatArray, window: int, *, closed: bool) -> FloatArr
     >>> moving_average(np.array([0.0, 3.0, 0.0, 0.0]), 3, closed=True).tolist()
     [1.0, 1.0, 1.0, 0.0]
     """
-    half = min(window // 2, len(values) - 1)
+    half = min(check_window(window) // 2, len(values) - 1)
     if half == 0:
         return values
     padded = np.pad(values, half, mode="wrap" if closed else "reflect")
     return np.convolve(padded, np.full(2 * half + 1, 1.0 / (2 * half + 1)), mode="valid")
+
+
+def check_window(window: int) -> int:
+    """The number of points of a moving average: odd, or an error."""
+    points = whole_number(window)
+    if points is None or points < 1 or points % 2 == 0:
+        raise InvalidInputError(f"window must be an odd number of points, got {window!r}; try 3")
+    return points
 
 
 def local_maxima(

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.contour import Contour
-from shapespline.cpda import Cpda, chord_to_point
+from shapespline.cpda import Cpda, check_window, chord_to_point
 from shapespline.curve import BSplineCurve
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.knots import check_degree, clamped_knots, greville_abscissae, periodic_knots
@@ -72,6 +72,13 @@ class Reading:
         if self.offset not in OFFSETS:
             raise InvalidInputError(
                 f"offset must be one of {', '.join(OFFSETS)}, got {self.offset!r}"
+            )
+        if self.window is not None:
+            check_window(self.window)
+        if self.prominence is not None and not 0 <= self.prominence < 1:
+            raise InvalidInputError(
+                f"prominence must be None or a part of the largest H, 0 to below 1,"
+                f" got {self.prominence!r}"
             )
         known = ("greville", *PARAMETRIZATIONS)
         if self.parametrization not in known:

@@ -181,14 +181,19 @@ class LocalSystem {
         const double wxx = w * (1.0 - t.x * t.x * inv_h), wxy = -w * t.x * t.y * inv_h,
                      wyy = w * (1.0 - t.y * t.y * inv_h);
         const Vec2 pull{wxx * r.x + wxy * r.y, wxy * r.x + wyy * r.y};
-        int pair = 0;
+        std::array<double, kWidth> bxx{}, bxy{}, byy{};
+        for (int b = 0; b <= Degree; ++b) {
+            bxx[b] = basis[b] * wxx;
+            bxy[b] = basis[b] * wxy;
+            byy[b] = basis[b] * wyy;
+        }
         for (int a = 0; a <= Degree; ++a) {
             rhs_[a] += -basis[a] * pull;
-            for (int b = 0; b <= a; ++b, ++pair) {
-                const double nn = basis[a] * basis[b];
-                xx_[pair] += nn * wxx;
-                xy_[pair] += nn * wxy;
-                yy_[pair] += nn * wyy;
+            const double na = basis[a];
+            for (int b = 0; b < kWidth; ++b) {
+                xx_[a][b] += na * bxx[b];
+                xy_[a][b] += na * bxy[b];
+                yy_[a][b] += na * byy[b];
             }
         }
     }
@@ -196,28 +201,29 @@ class LocalSystem {
     // Moves what was collected for control points first .. first + Degree into the system.
     void flush(std::size_t first, EnvelopeMatrix &matrix, std::vector<double> &rhs) {
         const std::size_t m = matrix.size() / 2;
-        int pair = 0;
         for (int a = 0; a <= Degree; ++a) {
             const std::size_t ia = (first + a) % m;
             rhs[2 * ia] += rhs_[a].x;
             rhs[2 * ia + 1] += rhs_[a].y;
-            for (int b = 0; b <= a; ++b, ++pair) {
+            for (int b = 0; b <= a; ++b) {
                 const std::size_t ib = (first + b) % m;
                 const std::size_t i = std::max(ia, ib), k = std::min(ia, ib);
                 // Two basis functions of one periodic control point meet the diagonal twice.
                 const double times = a != b && i == k ? 2.0 : 1.0;
-                matrix.at(2 * i, 2 * k) += times * xx_[pair];
-                matrix.at(2 * i + 1, 2 * k) += times * xy_[pair];
-                matrix.at(2 * i + 1, 2 * k + 1) += times * yy_[pair];
-                if (k < i) matrix.at(2 * i, 2 * k + 1) += xy_[pair];
+                matrix.at(2 * i, 2 * k) += times * xx_[a][b];
+                matrix.at(2 * i + 1, 2 * k) += times * xy_[a][b];
+                matrix.at(2 * i + 1, 2 * k + 1) += times * yy_[a][b];
+                if (k < i) matrix.at(2 * i, 2 * k + 1) += xy_[a][b];
             }
         }
         *this = LocalSystem{};
     }
 
   private:
-    static constexpr int kPairs = (Degree + 1) * (Degree + 2) / 2;
-    std::array<double, kPairs> xx_{}, xy_{}, yy_{};
+    // Whole rows of an even number of columns, of which flush reads the lower triangle: twice the
+    // products, but all of them in vector registers.
+    static constexpr int kWidth = (Degree + 2) / 2 * 2;
+    std::array<std::array<double, kWidth>, Degree + 1> xx_{}, xy_{}, yy_{};
     std::array<Vec2, Degree + 1> rhs_{};
 };
 

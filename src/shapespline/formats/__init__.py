@@ -135,7 +135,7 @@ def check_output(path: str | os.PathLike[str]) -> None:
 
 
 def write(path: str | os.PathLike[str], drawing: Drawing | Fit, **options: object) -> None:
-    """Write a drawing, or a single fit, to a file, its format told by its ending; whole or not at all.
+    """Write a drawing or a fit to a file told by its ending; whole or not at all.
 
     Parameters
     ----------

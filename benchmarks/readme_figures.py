@@ -1,0 +1,72 @@
+"""Draws the pictures of README.md from the project's own corpus: ``make figures``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from PIL import Image
+
+import shapespline as ss
+
+ROOT = Path(__file__).parent.parent
+DATA = ROOT / "examples" / "data"
+TARGET = ROOT / "docs" / "figures"
+# file, options of read, options of fit_shape
+PICTURES = (
+    ("opencv_butterfly.jpg", {"contours": "longest"}, {}),
+    ("mdi_leaf-maple_256.png", {}, {}),
+    ("NotoSerif-Regular_U0067_512.png", {}, {}),
+)
+
+
+def from_pictures() -> None:
+    """Three images with the curves that were fitted to them."""
+    figure = Figure(figsize=(15, 5.6), layout="constrained")
+    for axes, (name, reading, fitting) in zip(figure.subplots(1, 3), PICTURES, strict=True):
+        path = DATA / "images" / name
+        drawing = ss.fit_shape(ss.read(path, **reading), **fitting)
+        picture = Image.open(path).convert("RGBA")
+        ground = Image.new("RGBA", picture.size, "white")
+        pixels = np.asarray(Image.alpha_composite(ground, picture).convert("RGB"))
+        height, width = pixels.shape[:2]
+        faded = 255 - (255 - pixels.astype(float)) * 0.45
+        axes.imshow(faded.astype(np.uint8), extent=(0, width, 0, height))
+        for fit in drawing:
+            axes.plot(*fit.spline(np.linspace(0, 1, 6000)).T, color="#0072B2", lw=1.6)
+            axes.plot(*fit.control_points.T, "o", ms=2.6, color="#D55E00", mew=0)
+        points = sum(fit.n_control_points for fit in drawing)
+        farthest = max(fit.hausdorff_distance for fit in drawing)
+        axes.set_title(
+            f"{name}\n{points} control points, within {farthest:.2f} px both ways", fontsize=10
+        )
+        axes.set_axis_off()
+    figure.savefig(TARGET / "pictures.png", dpi=90, metadata={"Software": None})
+
+
+def by_count() -> None:
+    """One outline with 20, 36 and 60 control points."""
+    points = np.loadtxt(DATA / "outlines" / "hand620_closed.csv", delimiter=",")
+    figure = Figure(figsize=(15, 6.4), layout="constrained")
+    for axes, count in zip(figure.subplots(1, 3), (20, 36, 60), strict=True):
+        fit = ss.fit_curve(points, closed=True, n_control_points=count)
+        polygon = np.vstack([fit.control_points, fit.control_points[:1]])
+        axes.plot(*polygon.T, "o-", ms=3, lw=0.6, color="#D55E00", label="control polygon")
+        axes.plot(*points.T, ".", ms=2.5, color="#999999", label="620 data points")
+        axes.plot(*fit.spline(np.linspace(0, 1, 6000)).T, color="#0072B2", lw=1.4, label="B-spline")
+        axes.set_title(
+            f"n_control_points={count}: rms {fit.rms_distance:.3f},"
+            f" both ways within {fit.hausdorff_distance:.2f}\n(box diagonal 100)",
+            fontsize=10,
+        )
+        axes.set_aspect("equal")
+        axes.set_axis_off()
+    axes.legend(loc="lower right", frameon=False, fontsize=9)
+    figure.savefig(TARGET / "by_count.png", dpi=90, metadata={"Software": None})
+
+
+if __name__ == "__main__":
+    TARGET.mkdir(parents=True, exist_ok=True)
+    from_pictures()
+    by_count()

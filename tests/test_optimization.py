@@ -1,0 +1,469 @@
+"""optimize: every method from the same starts, statuses, invariances, recovery, bad input."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from numpy.testing import assert_array_equal
+from tests.reference import EPS, sampled_distances
+from tests.shapes import flower, moved, on_circle, random_curve, wave
+
+from shapespline.contour import Contour
+from shapespline.curve import BSplineCurve
+from shapespline.distance import RELATIVE_GAP, two_sided_distance
+from shapespline.drawing import Fit, Status
+from shapespline.errors import DroppedPointsWarning, InvalidInputError
+from shapespline.initial import LITERAL, initial_curve
+from shapespline.optimization import DEFAULT_LIMITS, METHODS, optimize
+from shapespline.solvers.iteration import Limits
+from shapespline.solvers.levenberg_marquardt import LevenbergMarquardt
+from shapespline.solvers.quasi_newton import make_solver
+
+methods = pytest.mark.parametrize("method", METHODS)
+SHORT = Limits(max_iterations=25)
+
+
+class Start:
+    """Anything with a spline and parameters."""
+
+    def __init__(self, spline, parameters):
+        self.spline, self.parameters = spline, np.asarray(parameters, dtype=float)
+
+
+def assert_honest(fit, contour):
+    """What a fit says about itself is so."""
+    assert fit.contour is contour
+    assert fit.parameters.shape == (contour.n_given,)
+    points = contour.points[contour.source]
+    off = np.hypot(*(fit.spline(fit.parameters) - points).T)
+    rounding = 100 * EPS * np.abs(contour.points).max()
+    assert off.max() <= fit.max_distance + rounding
+    assert fit.max_distance <= fit.hausdorff_distance
+    first = np.hypot(*(fit.spline(fit.parameters) - points).T)
+    _, at = np.unique(contour.source, return_index=True)
+    assert fit.rms_distance == pytest.approx(np.sqrt(np.mean(first[at] ** 2)), abs=rounding)
+    costs = [record.cost for record in fit.history]
+    assert all(b <= a for a, b in pairwise(costs))
+    assert [record.iteration for record in fit.history] == list(range(len(costs)))
+    for record in fit.history:
+        error = np.sqrt(2 * record.cost / (len(contour) - 1))
+        assert record.paper_error == pytest.approx(error, rel=4 * EPS)
+    assert fit.kept == (fit.hausdorff_distance <= fit.tolerance)
+    assert str(fit.status) == fit.status.value != ""
+    sampled = sampled_distances(fit.spline, contour, per_span=40)
+    assert fit.hausdorff_distance >= max(sampled.reverse, fit.max_distance) - rounding
+
+
+def assert_gains_half(fit, best):
+    """Of what Levenberg-Marquardt gains to its end, a short run of the others gains half."""
+    first, last = fit.history[0].paper_error, fit.history[-1].paper_error
+    assert last < first - 0.5 * (first - best.history[-1].paper_error)
+
+
+# --- every method ------------------------------------------------------------------------------
+
+
+@methods
+@pytest.mark.parametrize("closed", [True, False], ids=["closed", "open"])
+def test_every_method_lowers_the_error(method, closed):
+    contour = Contour(flower(160).points, closed)
+    start = initial_curve(contour, length=5)
+    fit = optimize(contour, start, method, limits=SHORT)
+    assert_honest(fit, contour)
+    assert fit.method == method
+    assert fit.spline.periodic is closed
+    assert_gains_half(fit, optimize(contour, start))
+
+
+@methods
+def test_every_method_lowers_the_error_of_the_literal_start(method):
+    contour = flower(160)
+    start = initial_curve(contour, length=5, reading=LITERAL)
+    fit = optimize(contour, start, method, limits=SHORT)
+    assert_gains_half(fit, optimize(contour, start))
+    assert not fit.spline.periodic
+    gaps = fit.control_points[[0, -1]] - contour.points[[0, -1]]
+    assert np.abs(gaps).max() <= 2 * EPS * 12  # moved to the middle of the data and back
+
+
+@pytest.mark.parametrize("degree", range(1, 10))
+@pytest.mark.parametrize("closed", [True, False], ids=["closed", "open"])
+def test_every_degree(degree, closed):
+    contour = Contour(flower(160).points, closed)
+    start = initial_curve(contour, length=5, degree=degree)
+    fit = optimize(contour, start, limits=SHORT)
+    assert_honest(fit, contour)
+    assert fit.degree == degree
+    assert fit.n_control_points == start.n_control_points
+    assert_array_equal(fit.knots, start.spline.knots)
+    assert fit.history[-1].cost < fit.history[0].cost
+
+
+def test_levenberg_marquardt_finds_what_the_others_creep_to():
+    contour = flower(160)
+    start = initial_curve(contour, length=5)
+    best = optimize(contour, start)
+    for method in METHODS:
+        found = optimize(contour, start, method, limits=SHORT)
+        # It stops where the cost falls by 1e-6 of itself, twice in a row.
+        assert best.history[-1].cost <= found.history[-1].cost * (1 + 1e-4)
+
+
+def test_solvers_may_be_passed():
+    contour = flower(160)
+    start = initial_curve(contour, length=5)
+    for solver, name in (
+        (make_solver("d-bfgs-inverse", start_diagonal="identity", wolfe="weak"), None),
+        (LevenbergMarquardt(start_damping=10.0), "LevenbergMarquardt"),
+    ):
+        fit = optimize(contour, start, solver, limits=SHORT)
+        assert fit.history[-1].cost < fit.history[0].cost
+        assert name is None or fit.method == name
+
+
+# --- status ------------------------------------------------------------------------------------
+
+
+def test_kept_without_a_tolerance():
+    fit = optimize(flower(160), initial_curve(flower(160), length=5))
+    assert fit.status == Status.KEPT
+    assert fit.kept
+    assert fit.tolerance == fit.hausdorff_distance
+    assert "no tolerance asked for" in fit.status.value
+    assert f"{fit.max_distance:.6g}" in fit.status.value
+
+
+def test_a_tolerance_stops_as_soon_as_it_is_met():
+    contour = flower(160)
+    start = initial_curve(contour, length=5)
+    whole = optimize(contour, start)
+    fit = optimize(contour, start, tolerance=3 * whole.hausdorff_distance)
+    assert fit.status == Status.KEPT
+    assert fit.kept
+    assert len(fit.history) < len(whole.history)
+    assert fit.max_distance <= fit.tolerance == 3 * whole.hausdorff_distance
+    assert "kept" in fit.status.value
+
+
+def test_a_tolerance_out_of_reach_is_exceeded():
+    contour = flower(160)
+    fit = optimize(contour, initial_curve(contour, length=5), tolerance=1e-6)
+    assert fit.status == Status.EXCEEDED
+    assert not fit.kept
+    assert "tolerance 1e-06 not reached" in fit.status.value
+    assert "take more control points" in fit.status.value
+
+
+def excursion():
+    """Data on a line; a curve through them that leaves it in between."""
+    contour = Contour(np.column_stack([np.arange(11.0), np.zeros(11)]), closed=False)
+    knots = [0, 0, 0.5, 0.52, 0.54, 1, 1]
+    points = [(0, 0), (5, 0), (5.2, 3), (5.4, 0), (10, 0)]
+    u = np.concatenate([np.linspace(0, 0.5, 6), 0.54 + 0.46 * (np.arange(6, 11) - 5.4) / 4.6])
+    return contour, Start(BSplineCurve(knots, points, 1), u)
+
+
+def test_a_one_sided_fit_is_not_called_kept():
+    contour, start = excursion()
+    fit = optimize(contour, start, tolerance=0.1)
+    assert fit.max_distance <= 0.1 < 2.9 < fit.hausdorff_distance
+    assert fit.status == Status.EXCEEDED
+    assert not fit.kept
+    assert "the data are within 0.1 of the curve but not the curve of the data" in fit.status.value
+
+
+@pytest.mark.parametrize("limits", [Limits(max_iterations=1), Limits(max_evaluations=2)])
+@pytest.mark.parametrize("method", ["levenberg-marquardt", "l-bfgs"])
+def test_a_budget_that_ran_out(limits, method):
+    contour = flower(160)
+    fit = optimize(contour, initial_curve(contour, length=5), method, limits=limits)
+    assert fit.status == Status.BUDGET
+    assert "ran out" in fit.status.value
+    assert "raise max_" in fit.status.value
+    assert_honest(fit, contour)
+
+
+def test_a_budget_that_ran_out_with_the_tolerance_met_is_kept():
+    # Nothing of the promise is missing: the sentence and `kept` must not contradict each other.
+    contour = flower(160)
+    start = initial_curve(contour, length=5)
+    once = optimize(contour, start, limits=Limits(max_iterations=1))
+    fit = optimize(
+        contour, start, tolerance=2 * once.hausdorff_distance, limits=Limits(max_iterations=1)
+    )
+    assert fit.kept
+    assert fit.status == Status.KEPT
+
+
+@pytest.mark.parametrize("method", ["levenberg-marquardt", "d-bfgs"])
+def test_the_callback_sees_every_iteration_and_cancels(method):
+    contour = flower(160)
+    start = initial_curve(contour, length=5)
+    seen = []
+    whole = optimize(contour, start, method, callback=seen.append, limits=SHORT)
+    assert tuple(seen) == whole.history
+    fit = optimize(contour, start, method, callback=lambda record: record.iteration == 2)
+    assert fit.status == Status.CANCELLED
+    assert "cancelled by the callback after 2 iterations" in fit.status.value
+    assert [r.cost for r in fit.history] == [r.cost for r in whole.history[:3]]
+    assert_honest(fit, contour)
+
+
+# --- data --------------------------------------------------------------------------------------
+
+
+def test_weights_pull():
+    rng = np.random.default_rng(0)
+    contour = Contour(wave(120).points + rng.normal(0, 0.3, (120, 2)), False)
+    start = initial_curve(contour, arc_length=6.0)
+    heavy = np.ones(120)
+    heavy[60] = 1e4
+    even, pulled = optimize(contour, start), optimize(contour, start, weights=heavy)
+
+    def off(fit):
+        return np.hypot(*(fit.spline([fit.parameters[60]])[0] - contour.points[60]))
+
+    assert off(pulled) < 1e-2 * off(even)
+    ones = optimize(contour, start, weights=np.ones(120))
+    assert_array_equal(ones.control_points, even.control_points)
+    # Four times the weight is four times the cost: sums and square roots scale exactly.
+    fourfold = optimize(contour, start, weights=np.full(120, 4.0))
+    assert fourfold.history[0].cost == 4 * even.history[0].cost
+    assert_array_equal(fourfold.control_points, even.control_points)
+
+
+def test_repeated_points_have_parameters_and_weights_of_their_own():
+    contour = flower(160)
+    with pytest.warns(DroppedPointsWarning):
+        doubled = Contour(np.repeat(contour.points, 2, axis=0), True)
+    start = initial_curve(contour, length=5)
+    once = optimize(contour, start)
+    fit = optimize(doubled, initial_curve(doubled, length=5))
+    assert fit.parameters.shape == (320,)
+    assert_array_equal(fit.parameters, np.repeat(once.parameters, 2))
+    assert_array_equal(fit.control_points, once.control_points)
+    weighted = optimize(doubled, start, weights=np.full(320, 0.5))
+    assert_array_equal(weighted.control_points, once.control_points)
+    again = optimize(doubled, fit)  # its parameters are those of the points that were given
+    assert again.history[0].cost == pytest.approx(fit.history[-1].cost, rel=0.2)
+
+
+def test_a_fit_is_a_start():
+    contour = flower(160)
+    first = optimize(contour, initial_curve(contour, length=5), limits=Limits(max_iterations=4))
+    assert isinstance(first, Fit)
+    second = optimize(contour, first)
+    # It starts at nearest foot parameters: no residual is longer than where the first run ended.
+    assert second.history[0].cost <= first.history[-1].cost * (1 + 1e-9)
+    assert second.history[-1].cost <= first.history[-1].cost
+    assert second.rms_distance <= first.rms_distance * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("ends", ["interpolated", "fitted", "free"])
+def test_ends(ends):
+    rng = np.random.default_rng(3)
+    contour = Contour(wave(150).points + rng.normal(0, 0.1, (150, 2)), False)
+    fit = optimize(contour, initial_curve(contour, length=12), ends=ends, limits=SHORT)
+    gaps = np.hypot(*(fit.control_points[[0, -1]] - contour.points[[0, -1]]).T)
+    if ends == "interpolated":
+        assert gaps.max() <= 4 * EPS * 20  # moved to the middle of the data and back
+    else:
+        assert (gaps > 1e-6).all()
+    assert_honest(fit, contour)
+    if ends == "interpolated":
+        default = optimize(contour, initial_curve(contour, length=12), limits=SHORT)
+        assert_array_equal(default.control_points, fit.control_points)
+
+
+def test_fitted_ends_cost_less_than_interpolated_and_free_ones_least():
+    rng = np.random.default_rng(3)
+    contour = Contour(wave(150).points + rng.normal(0, 0.1, (150, 2)), False)
+    start = initial_curve(contour, length=12)
+    costs = [
+        optimize(contour, start, ends=ends).history[-1].cost
+        for ends in ("interpolated", "fitted", "free")
+    ]
+    assert costs[0] > costs[1] > costs[2]
+
+
+# --- the same again, elsewhere, backwards ------------------------------------------------------
+
+
+@methods
+def test_the_same_bits_again(method):
+    contour = flower(160)
+    start = initial_curve(contour, length=5)
+    one = optimize(contour, start, method, limits=SHORT)
+    two = optimize(contour, start, method, limits=SHORT)
+    assert_array_equal(one.control_points, two.control_points)
+    assert_array_equal(one.parameters, two.parameters)
+    assert one.hausdorff_distance == two.hausdorff_distance
+
+
+def test_powers_of_two_commute_exactly():
+    contour = flower(160)
+    fit = optimize(contour, initial_curve(contour, length=5))
+    for scale in (2.0**-30, 4.0, 2.0**30):
+        other = Contour(scale * contour.points, True)
+        found = optimize(other, initial_curve(other, length=5))
+        assert_array_equal(found.control_points, scale * fit.control_points)
+
+
+@pytest.mark.parametrize("closed", [True, False], ids=["closed", "open"])
+@pytest.mark.parametrize(
+    ("angle", "scale", "shift"),
+    [(0.7, 1.0, (0, 0)), (0, 1.0, (1e6, -2e6)), (2.0, 1e-6, (3e-6, 0)), (1.0, 1e7, (5e8, 1e8))],
+)
+def test_similarity_transforms_commute(closed, angle, scale, shift):
+    contour = Contour(flower(160).points, closed)
+    fit = optimize(contour, initial_curve(contour, length=5))
+    other = Contour(moved(contour.points, angle, scale, shift), closed)
+    found = optimize(other, initial_curve(other, length=5))
+    # Both stop where the cost falls by less than 1e-6 of itself. Rounding of the place (1e-9 of
+    # the shape at worst here) moves the path by as much and may shift the stop by an iteration:
+    # the costs then differ by a few of these decreases, the distances by the root of that.
+    cost, other_cost = fit.history[-1].cost, found.history[-1].cost / scale**2
+    assert abs(other_cost - cost) <= 1e-4 * cost
+    assert abs(found.rms_distance / scale - fit.rms_distance) <= 1e-2 * fit.rms_distance
+    gap = np.abs(found.control_points - moved(fit.control_points, angle, scale, shift)).max()
+    assert gap <= 1e-2 * scale * fit.max_distance * 10
+
+
+def test_reversed_open_data_give_the_reversed_curve():
+    contour = wave(150)
+    back = Contour(contour.points[::-1], False)
+    fit = optimize(contour, initial_curve(contour, length=12))
+    start = initial_curve(contour, length=12)
+    mirrored = Start(
+        BSplineCurve(1 - start.spline.knots[::-1], start.control_points[::-1], 3),
+        1 - start.parameters[::-1],
+    )
+    found = optimize(back, mirrored)
+    assert found.history[-1].cost == pytest.approx(fit.history[-1].cost, rel=1e-4)
+
+
+# --- recovery ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize("periodic", [False, True], ids=["clamped", "periodic"])
+def test_a_sampled_spline_is_recovered(degree, periodic):
+    rng = np.random.default_rng([degree, periodic])
+    m = 10
+    if periodic:
+        shape = on_circle(m, 8.0) * (1 + 0.2 * rng.uniform(-1, 1, (m, 1)))
+    else:
+        shape = np.column_stack([np.linspace(0, 20, m), rng.uniform(-3, 3, m)])
+    template = random_curve(rng, degree, m, periodic=periodic, multiple=False)
+    if degree == 1 and not periodic:
+        template = BSplineCurve([0, *np.linspace(0, 1, m), 1], shape, 1)
+    truth = BSplineCurve(template.knots, shape, degree, periodic)
+    u = np.linspace(0, 1, 400, endpoint=not periodic)
+    contour = Contour(truth(u), periodic)
+    nearby = shape + rng.normal(0, 0.05, shape.shape)
+    if not periodic:
+        nearby[[0, -1]] = shape[[0, -1]]
+    start = Start(
+        BSplineCurve(template.knots, nearby, degree, periodic),
+        np.clip(np.sort(u + rng.normal(0, 5e-4, 400)), 0, None if periodic else 1),
+    )
+    start.parameters[0] = 0
+    if not periodic:
+        start.parameters[-1] = 1
+    limits = Limits(max_iterations=200, relative_decrease=1e-12, gradient_tolerance=0)
+    fit = optimize(contour, start, limits=limits)
+    # A zero-residual problem: convergence is quadratic up to the flat valley of
+    # reparametrisations, where it is linear in the damping. Six decades are no accident; without
+    # the parameters a start 0.05 off stays 1e-3 off.
+    assert fit.max_distance <= 1e-6
+    sagitta = two_sided_distance(truth, contour).reverse_distance
+    assert fit.hausdorff_distance <= sagitta * (1 + RELATIVE_GAP) + 1e-6
+
+
+def test_exact_data_cost_nothing():
+    knots_source = initial_curve(flower(160), length=5)
+    truth, u = knots_source.spline, knots_source.parameters
+    contour = Contour(truth(u), True)
+    fit = optimize(contour, Start(truth, u))
+    assert fit.history[0].paper_error <= 64 * EPS * 12
+    assert fit.max_distance <= 640 * EPS * 12
+    # Two end points of the polyline and a bend between: the sagitta of the samples.
+    assert fit.hausdorff_distance <= 0.02
+
+
+# --- the stray residuals -----------------------------------------------------------------------
+
+
+def test_stray_residuals_keep_the_curve_near_the_data(outline):
+    hand = outline("hand620_closed")
+    contour = Contour(hand.points * (10 / hand.box_diagonal), True)
+    start = initial_curve(contour, 3)
+    plain, held = optimize(contour, start), optimize(contour, start, stray_weight=0.1)
+    assert plain.hausdorff_distance > 10 * plain.max_distance
+    assert held.hausdorff_distance <= 3 * held.max_distance
+    assert held.rms_distance <= 2 * plain.rms_distance
+
+
+@pytest.mark.parametrize(
+    "name", ["leaf840_closed", "plane1100_closed", "fa_leaf_c0", "mdi_fish_c0"]
+)
+def test_real_shapes(outline, name):
+    contour = outline(name)
+    start = initial_curve(contour, length=5)
+    fit = optimize(contour, start, stray_weight=0.1, limits=Limits(max_iterations=40))
+    assert fit.history[-1].cost < 0.25 * fit.history[0].cost
+    assert_honest(fit, contour)
+    assert fit.hausdorff_distance <= 4 * fit.max_distance
+
+
+# --- bad input ---------------------------------------------------------------------------------
+
+
+def test_bad_arguments():
+    contour = flower(160)
+    start = initial_curve(contour, length=5)
+    with pytest.raises(InvalidInputError, match="method must be one of levenberg-m.*got 'newton'"):
+        optimize(contour, start, "newton")
+    for bad in (0, -1.0, np.nan):
+        with pytest.raises(InvalidInputError, match="tolerance must be positive, got .*data units"):
+            optimize(contour, start, tolerance=bad)
+    with pytest.raises(InvalidInputError, match=r"weights must have shape \(160,\), .*\(159,\)"):
+        optimize(contour, start, weights=np.ones(159))
+    for bad in (0.0, -1.0, np.nan, np.inf):
+        weights = np.ones(160)
+        weights[3] = bad
+        with pytest.raises(InvalidInputError, match="weights must be positive and finite; leave"):
+            optimize(contour, start, weights=weights)
+    with pytest.raises(InvalidInputError, match="expected 160, got 100; make it from the same"):
+        optimize(contour, Start(start.spline, start.parameters[:100]))
+    with pytest.raises(InvalidInputError, match="ends must be one of"):
+        optimize(contour, start, ends="loose")
+    with pytest.raises(InvalidInputError, match="ends must be 'free' for a periodic curve"):
+        optimize(contour, start, ends="interpolated")
+    for bad in (-0.1, np.nan, np.inf):
+        with pytest.raises(InvalidInputError, match="stray_weight"):
+            optimize(contour, start, stray_weight=bad)
+    with pytest.raises(InvalidInputError, match="max_iterations"):
+        optimize(contour, start, limits=Limits(max_iterations=-1))
+    bad = start.parameters.copy()
+    bad[7] = np.nan
+    with pytest.raises(InvalidInputError, match="finite"):
+        optimize(contour, Start(start.spline, bad))
+
+
+@pytest.mark.parametrize("weights", ["heavy", [["a"]], None, np.ones((160, 1))])
+def test_weights_that_are_none(weights):
+    contour = flower(160)
+    start = initial_curve(contour, length=5)
+    if weights is None:
+        assert optimize(contour, start, weights=None, limits=SHORT).kept
+        return
+    with pytest.raises(InvalidInputError, match="weights must"):
+        optimize(contour, start, weights=weights)
+
+
+def test_the_default_limits_hold():
+    assert DEFAULT_LIMITS.max_iterations >= 100
+    assert 0 < DEFAULT_LIMITS.relative_decrease <= 1e-5
