@@ -20,6 +20,7 @@ from shapespline.distance import two_sided_distance
 from shapespline.paper import (
     LITERAL_LIMITS,
     SENSIBLE_LIMITS,
+    SENSIBLE_STRAY_WEIGHT,
     TIMED_RUNS,
     PaperRun,
     TimedStart,
@@ -48,7 +49,6 @@ BFGS_EVALUATIONS = 600
 NEAR_ITS_END = 1.01
 STRICTER = 0.5
 LITERAL_CONFIGURATION = "d-bfgs-inverse, as published"
-HELD = 0.1
 
 
 class Published(NamedTuple):
@@ -204,7 +204,7 @@ def measure(outline: Outline) -> OutlineRuns:
         literal,
         sensible,
         same,
-        optimize(contour, shown.start, stray_weight=HELD),
+        optimize(contour, shown.start, stray_weight=SENSIBLE_STRAY_WEIGHT),
         {run.literal: two_sided_distance(run.start.spline, contour) for run in (literal, sensible)},
         {run.literal: _predecessor(contour, length, run) for run in (literal, sensible)},
         {run.literal: compare_methods(contour, run.start, targets) for run in (literal, sensible)},
@@ -331,7 +331,8 @@ class GoingOn(NamedTuple):
     """What a run of direct D-BFGS has reached when it stops at a relative decrease."""
 
     relative_decrease: float
-    fit: Fit
+    plain: Fit
+    held: Fit
 
 
 def going_on(contour: Contour, start: Start) -> list[GoingOn]:
@@ -339,7 +340,9 @@ def going_on(contour: Contour, start: Start) -> list[GoingOn]:
     rows = []
     for fraction in (1e-2, 1e-3, 1e-4, 1e-5):
         limits = replace(SENSIBLE_LIMITS, relative_decrease=fraction, max_iterations=4000)
-        rows.append(GoingOn(fraction, optimize(contour, start, "d-bfgs", limits=limits)))
+        plain = optimize(contour, start, "d-bfgs", limits=limits)
+        held = optimize(contour, start, "d-bfgs", limits=limits, stray_weight=SENSIBLE_STRAY_WEIGHT)
+        rows.append(GoingOn(fraction, plain, held))
     return rows
 
 
@@ -359,7 +362,7 @@ def growth(contour: Contour, sizes: tuple[int, ...], n_iterations: int = 30) -> 
         start = initial_curve(dense, arc_length=dense.length / 100)
         limits = Limits(max_iterations=n_iterations, relative_decrease=0, gradient_tolerance=0)
         best = None
-        for _ in range(3):
+        for _ in range(5):
             last = optimize(dense, start, "d-bfgs", limits=limits).history[-1]
             if best is None or last.seconds < best.seconds:
                 best = last

@@ -21,6 +21,8 @@ from benchmarks.paper_runs import (
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from shapespline import Fit
+
 
 def table(header: Sequence[str], rows: Iterable[Sequence[object]], n_words: int = 1) -> str:
     """A Markdown table; the first columns hold words, the others figures, to the right."""
@@ -198,20 +200,27 @@ def tenth(runs: Sequence[OutlineRuns]) -> str:
 def going_on(rows: dict[str, list[GoingOn]]) -> str:
     """What a longer run gains, and what it costs."""
     header = ("outline", "stop at a fall below", "evaluations", "E", "data to curve", "two-sided")
+    header = (*header, *(f"held: {title}" for title in header[2:]))
     return table(
         header,
         [
             (
                 name,
                 f"{row.relative_decrease:.0e}",
-                count(row.fit.history[-1].evaluations),
-                f"{row.fit.history[-1].paper_error:.4f}",
-                f"{row.fit.max_distance:.3f}",
-                f"{row.fit.hausdorff_distance:.3f}",
+                *(cell for fit in (row.plain, row.held) for cell in _end(fit)),
             )
             for name, of_outline in rows.items()
             for row in of_outline
         ],
+    )
+
+
+def _end(fit: Fit) -> tuple[str, ...]:
+    return (
+        count(fit.history[-1].evaluations),
+        f"{fit.history[-1].paper_error:.4f}",
+        f"{fit.max_distance:.3f}",
+        f"{fit.hausdorff_distance:.3f}",
     )
 
 

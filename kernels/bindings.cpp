@@ -141,17 +141,18 @@ NB_MODULE(_kernels, m) {
     m.def(
         "cost_and_gradient",
         [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
-           std::optional<In1> weights, int held, bool control_ends_fixed, OutPoints control_gradient,
+           std::optional<In1> weights, int held, bool control_ends_fixed, double stray_weight,
+           OutPoints control_gradient,
            Out1 parameter_gradient) {
             nb::gil_scoped_release release;
             return ss::cost_and_gradient(
                 knot_vector(knots, degree, periodic), vectors(control_points),
-                samples(points, parameters, weights, held, control_ends_fixed), vectors(control_gradient),
+                samples(points, parameters, weights, held, control_ends_fixed, stray_weight), vectors(control_gradient),
                 parameter_gradient.data());
         },
         "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
         "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
-        "held"_a, "control_ends_fixed"_a, "control_gradient"_a.noconvert(), "parameter_gradient"_a.noconvert());
+        "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "control_gradient"_a.noconvert(), "parameter_gradient"_a.noconvert());
 
     m.def(
         "gauss_newton_diagonal",

@@ -205,27 +205,28 @@ class Stray(NamedTuple):
 
 
 def stray_residuals(knots, degree, points, parameters, stray_weight, periodic):
-    """Where neighbours are more than 1/8 of a mean span apart: eight places between them.
+    """Where neighbours are more than 1/8 of a mean span apart: places between them.
 
-    Each is compared with the point of the segment at the same fraction; the weight is
-    stray_weight / 8 times the square of the excess over 1/8 of a span, in that unit.
+    Eight a span, rounded up to whole spans. Each is compared with the point of the segment at the
+    same fraction; the weights add up to stray_weight times the square of the excess over 1/8 of a
+    span, in that unit.
     """
     begin, end = knots[degree], knots[-degree - 1]
     domain = np.unique(np.asarray(knots)[degree : len(knots) - degree])
-    free = (end - begin) / (len(domain) - 1) / 8
+    span = (end - begin) / (len(domain) - 1)
     q, t = list(points), list(parameters)
     if periodic:
         q, t = [*q, q[0]], [*t, t[0] + (end - begin)]
     found = []
     for j in range(len(q) - 1):
-        excess = (t[j + 1] - t[j]) / free - 1
+        excess = (t[j + 1] - t[j]) / (span / 8) - 1
         if excess > 0:
-            for i in range(1, 9):
-                s = i / 9
+            count = 8 * int(np.clip(np.ceil((t[j + 1] - t[j]) / span), 1, len(domain) - 1))
+            weight = stray_weight * excess**2 / count
+            for i in range(1, count + 1):
+                s = i / (count + 1)
                 target = (1 - s) * np.asarray(q[j]) + s * np.asarray(q[j + 1])
-                found.append(
-                    Stray(t[j] + s * (t[j + 1] - t[j]), target, stray_weight * excess**2 / 8)
-                )
+                found.append(Stray(t[j] + s * (t[j + 1] - t[j]), target, weight))
     return found
 
 

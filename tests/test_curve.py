@@ -408,6 +408,14 @@ def test_scipy_splines_with_spare_coefficients_or_other_dimensions():
         BSplineCurve.from_scipy(BSpline([0, 1, 2], np.zeros((2, 2)), 0))
 
 
+def test_a_spline_that_extrapolates_periodically_but_does_not_close_is_clamped():
+    spline = BSpline(periodic_knots(6, 3), np.eye(9, 2), 3, extrapolate="periodic")
+    curve = BSplineCurve.from_scipy(spline)
+    assert not curve.periodic
+    u = np.arange(50) / 50
+    assert np.abs(curve(u) - spline(u)).max() <= (8 * 3 + 2 * (7 * 3 + 3)) * EPS
+
+
 # --- errors ------------------------------------------------------------------------------------
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -16,9 +18,7 @@ from shapespline.footpoint import nearest, nondecreasing
 
 
 def dense_distances(curve, queries, per_span=400):
-    u = np.concatenate(
-        [np.linspace(a, b, per_span) for a, b in zip(curve.breakpoints, curve.breakpoints[1:])]
-    )
+    u = np.concatenate([np.linspace(a, b, per_span) for a, b in pairwise(curve.breakpoints)])
     samples = curve(u)
     return np.array([np.sqrt(((samples - q) ** 2).sum(axis=1).min()) for q in queries])
 
@@ -47,7 +47,7 @@ def test_the_residual_is_normal_to_the_curve_or_the_foot_is_an_end_or_corner(deg
     rng = np.random.default_rng(degree)
     curve = random_curve(rng, degree, degree + 6, multiple=False)
     queries = rng.uniform(-14, 14, (200, 2))
-    u, distances_sq = nearest(curve, queries)
+    u, _ = nearest(curve, queries)
     residuals, tangents = curve(u) - queries, curve(u, 1)
     speed = np.hypot(*tangents.T)
     slope = np.abs((residuals * tangents).sum(axis=1))

@@ -298,10 +298,10 @@ def test_clamped():
 
 
 def test_bad_readings():
-    with pytest.raises(InvalidInputError, match="offset must be one of difference, .* got 'nor'"):
+    with pytest.raises(InvalidInputError, match=r"offset must be one of difference, .* got 'nor'"):
         Reading(offset="nor")
     with pytest.raises(
-        InvalidInputError, match="parametrization must be one of greville, .*'foley'"
+        InvalidInputError, match=r"parametrization must be one of greville, .*'foley'"
     ):
         Reading(parametrization="foley")
 

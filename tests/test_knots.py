@@ -97,7 +97,7 @@ def test_too_few_control_points(make):
         match=r"n_control_points must be at least degree \+ 1 = 4, got 3; raise it or lower",
     ):
         make(3, 3)
-    with pytest.raises(InvalidInputError, match="n_control_points must be an integer, got 4.5"):
+    with pytest.raises(InvalidInputError, match=r"n_control_points must be an integer, got 4\.5"):
         make(4.5, 3)
 
 

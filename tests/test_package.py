@@ -26,7 +26,7 @@ TIERS = [
     },
     {"optimization", "sections", "nodes", "removal", "balance", "paper_figures"},
     {"fitting"},
-    {"reconstruction", "paper"},
+    {"reconstruction", "paper", "paper_report"},
     {"batch"},
     {"cli", "studio", "__main__"},
 ]  # fmt: skip
@@ -62,7 +62,8 @@ class Imports(ast.NodeVisitor):
     def visit_FunctionDef(self, node):
         self._within("call", node.body)
 
-    visit_AsyncFunctionDef = visit_FunctionDef
+    def visit_AsyncFunctionDef(self, node):
+        self._within("call", node.body)
 
     def visit_If(self, node):
         typed = ast.unparse(node.test) in ("TYPE_CHECKING", "typing.TYPE_CHECKING")
@@ -109,7 +110,8 @@ def test_the_visitor_sees_every_kind_of_import(tmp_path):
     source.write_text(
         "import scipy.linalg\n"
         "if TYPE_CHECKING:\n    from shapespline.curve import C\n"
-        "class A:\n    import json\n    def f(self):\n        from shapespline import _kernels, read\n"
+        "class A:\n    import json\n"
+        "    def f(self):\n        from shapespline import _kernels, read\n"
         "try:\n    import numpy as np\nexcept ImportError:\n    pass\n"
         "async def g():\n    if x:\n        import os\n",
         encoding="utf-8",

@@ -164,9 +164,8 @@ def test_the_scale_is_floored_where_there_are_no_data():
     assert of_points[-1] == DIAGONAL_FLOOR * of_points.max()
     still = BSplineCurve([0, 0, 1, 1], [(1, 1), (1, 1)], 1)
     problem = CurveProblem(np.array([[0.0, 0], [1, 0], [2, 1]]), still)
-    assert problem.scale(problem.pack(still.control_points, np.array([0, 0.5, 1])))[4:].tolist() == [
-        1, 1, 1,
-    ]  # fmt: skip
+    x = problem.pack(still.control_points, np.array([0, 0.5, 1]))
+    assert problem.scale(x)[4:].tolist() == [1, 1, 1]
 
 
 def test_long_data_are_summed_in_chunks_to_the_same_value():
@@ -447,3 +446,57 @@ def test_bad_ends():
         case.problem(ends="loose")
     with pytest.raises(InvalidInputError, match="ends must be 'free' for a periodic curve"):
         Case(3, True).problem(ends="fitted")
+
+
+@pytest.mark.parametrize("m", [1, 2, 3])
+def test_fewer_periodic_control_points_than_a_span_needs_are_right_or_refused(m):
+    case = Case(3, True, m=4)
+    knots = np.arange(-3, m + 4) / m
+    try:
+        case.curve = BSplineCurve(knots, case.curve.control_points[:m], 3, periodic=True)
+    except InvalidInputError:
+        return
+    case.m = m
+    exact = (case.dense().jacobian() ** 2).sum(axis=0)[: 2 * m]
+    found = case.problem().scale(case.x())[: 2 * m]
+    assert (np.abs(found - exact) <= (36 + case.n + 4) * EPS * exact).all()
+    if m > 1:  # one point has no tangent
+        assert_step(case, 0.1)
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3, 5])
+@closures
+@pytest.mark.parametrize("held", [False, True])
+def test_the_gradient_of_the_stray_residuals_is_their_difference_quotient(degree, periodic, held):
+    case = Case(degree, periodic, n=9, multiple=False)
+    ends = "interpolated" if held and not periodic else "free"
+    problem, x = case.problem(stray_weight=0.3, ends=ends), case.x()
+    cost, gradient = problem.cost_and_gradient(x)
+    assert abs(cost - problem.cost(x)) <= 200 * EPS * cost
+    knots, weights = case.curve.knots, case.weights[:, None]
+
+    def exact_cost(z):
+        points, parameters = z[: 2 * case.m].reshape(-1, 2), z[2 * case.m :]
+        strays = reference.stray_residuals(
+            knots, degree, case.points, parameters, np.longdouble(0.3), periodic
+        )
+        u = np.array([*parameters, *(s.parameter for s in strays)])
+        targets = np.array([*case.points, *(s.target for s in strays)])
+        w = np.array([*weights[:, 0], *(s.weight for s in strays)])
+        r = reference.evaluated(knots, points, degree, u, periodic) - targets
+        return 0.5 * (w[:, None] * r**2).sum()
+
+    # One sample may lie near a knot; there the difference quotient of a curve of degree 1 is off
+    # by the step over its distance: both steps see it alike, or the finer one sees less.
+    coarse = reference.central_difference(exact_cost, x, 1e-6)
+    fine = reference.central_difference(exact_cost, x, 5e-7)
+    rounding = 500 * float(np.finfo(np.longdouble).eps) * cost / 5e-7
+    kernel = 2000 * degree * EPS * np.abs(fine).max()
+    if ends == "interpolated":
+        moves = np.ones(len(x), dtype=bool)
+        moves[[0, 1, 2 * case.m - 2, 2 * case.m - 1, 2 * case.m, -1]] = False
+        assert_array_equal(gradient[~moves], 0)
+    else:
+        moves = slice(None)
+    off = np.abs(gradient - fine)[moves]
+    assert (off <= (np.abs(coarse - fine) + rounding + kernel)[moves]).all()

@@ -71,6 +71,7 @@ def cost_and_gradient(
     weights: FloatArray | None,
     held: int,  # parameters that stay: 0 none, 1 the ends, 2 all
     control_ends_fixed: bool,
+    stray_weight: float,
     control_gradient: FloatArray,  # out (m, 2)
     parameter_gradient: FloatArray,  # out (n,)
 ) -> float: ...

@@ -155,7 +155,8 @@ def paper(
     min_area: MinArea = None,
 ) -> None:
     """Run the published method on the longest outline of INPUT: figures and a table."""
-    from shapespline.paper import check_folder, run_paper, write_report
+    from shapespline.paper import run_paper
+    from shapespline.paper_report import check_folder, write_report
 
     check_folder(output)
     shape = _read(source, closed, y_down, level, polarity, Selection.all, min_area)

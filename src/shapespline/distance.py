@@ -64,7 +64,8 @@ def two_sided_distance(curve: BSplineCurve, contour: Contour) -> Distances:
     """
     # Differences are formed about the middle of the data, so that its place costs no accuracy.
     middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
-    rounding = 8.0 * float(np.finfo(float).eps * np.abs(contour.points).max())
+    largest = max(np.abs(contour.points).max(), np.abs(curve.control_points).max())
+    rounding = 8.0 * float(np.finfo(float).eps * largest)
     centred = type(curve)(curve.knots, curve.control_points - middle, curve.degree, curve.periodic)
     found = nearest(centred, contour.points - middle)
     distances_sq = found.distances_sq

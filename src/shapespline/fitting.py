@@ -105,9 +105,8 @@ def fit_curve(
                 f" got {count}; lower it"
             )
     start = balanced_start(contour, count, degree, summed)
-    stray_weight = STRAY_WEIGHT if method == "levenberg-marquardt" else 0.0
     return optimize(
-        contour, start, method, weights=weights, stray_weight=stray_weight, callback=callback
+        contour, start, method, weights=weights, stray_weight=STRAY_WEIGHT, callback=callback
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from shapespline import _kernels
 from shapespline.arrays import float_array
+from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
     from shapespline.curve import BSplineCurve
@@ -33,6 +34,11 @@ def nearest(curve: BSplineCurve, points: ArrayLike) -> Nearest:
     curve : BSplineCurve
     points : array_like, shape (k, 2)
 
+    Raises
+    ------
+    InvalidInputError
+        If the points are no finite (k, 2) array.
+
     Examples
     --------
     >>> from shapespline.curve import BSplineCurve
@@ -40,7 +46,12 @@ def nearest(curve: BSplineCurve, points: ArrayLike) -> Nearest:
     >>> nearest(line, [(1.0, 2.0), (9.0, 0.0)])
     Nearest(parameters=array([0.25, 1.  ]), distances_sq=array([ 4., 25.]))
     """
-    queries = float_array(points, "points").reshape(-1, 2)
+    queries = float_array(points, "points")
+    if queries.ndim != 2 or queries.shape[1] != 2 or not np.isfinite(queries).all():
+        raise InvalidInputError(
+            f"points must be a finite (k, 2) array, got shape {queries.shape} with"
+            f" {int((~np.isfinite(queries)).sum())} numbers that are not finite"
+        )
     parameters, distances_sq = np.empty(len(queries)), np.empty(len(queries))
     _kernels.nearest_on_curve(
         curve.knots, curve.degree, curve.coefficients, queries, parameters, distances_sq

@@ -134,6 +134,11 @@ def check_knots(knots: FloatArray, degree: int, *, periodic: bool) -> None:
     if periodic:
         period = domain[-1] - domain[0]
         m = len(domain) - 1
+        if m < degree + 1:
+            raise DegenerateContourError(
+                f"knots must have at least degree + 1 = {degree + 1} control points in a period,"
+                f" got {m}; lower the degree"
+            )
         # Knots that were shifted by the period carry one rounding each.
         slack = 4 * np.finfo(float).eps * (np.abs(knots).max() + period)
         if np.abs(knots[m:] - knots[: len(knots) - m] - period).max() > slack:

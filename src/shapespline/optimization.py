@@ -81,6 +81,10 @@ def optimize(
     ends : {"interpolated", "fitted", "free"}, optional
         Of an open curve: held on the first and last point (default), held by their parameters
         only, or not held at all.
+    stray_weight : float
+        Weight, relative to that of a data point, of residuals that hold the curve on the data
+        polyline where neighbours drift apart on it; 0 is the paper's problem, 0.1 keeps both
+        distances alike.
     limits : Limits
         Iterations, evaluations and the tests of convergence.
     callback : callable, optional
@@ -123,17 +127,21 @@ def optimize(
         error = float(np.sqrt(2.0 * record.cost / max(n - 1, 1)))
         return Iteration(record.iteration, record.cost, error, *_rest(record))
 
+    first = spline.control_points - middle
+    if ends == "interpolated":
+        first[[0, -1]] = problem.points[[0, -1]]
     result = minimize(
         solver,
         problem,
-        problem.pack(spline.control_points - middle, _start_parameters(start, contour)),
+        problem.pack(first, _start_parameters(start, contour)),
         limits=limits,
         callback=None if callback is None else lambda record: callback(iteration(record)),
     )
     fitted = problem.curve(result.x)
-    curve = type(fitted)(
-        fitted.knots, fitted.control_points + middle, fitted.degree, fitted.periodic
-    )
+    control_points = fitted.control_points + middle
+    if ends == "interpolated":  # to the bit, in spite of the way to the middle and back
+        control_points[[0, -1]] = contour.points[[0, -1]]
+    curve = type(fitted)(fitted.knots, control_points, fitted.degree, fitted.periodic)
     found = two_sided_distance(curve, contour)
     bound = found.hausdorff_distance
     return Fit(

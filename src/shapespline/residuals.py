@@ -44,8 +44,7 @@ class CurveProblem:
         the first and last parameter, "interpolated" the first and last control point as well.
     stray_weight : float
         Weight, relative to that of a data point, of residuals that hold the curve to the data
-        polyline where neighbours lie far apart on it; 0 is the plain problem. Of ``cost`` and
-        ``damped_step`` only.
+        polyline where neighbours lie far apart on it; 0 is the plain problem.
 
     Examples
     --------
@@ -67,6 +66,10 @@ class CurveProblem:
     ) -> None:
         if ends not in ENDS:
             raise InvalidInputError(f"ends must be one of {', '.join(ENDS)}, got {ends!r}")
+        if not 0 <= stray_weight < np.inf:
+            raise InvalidInputError(
+                f"stray_weight must be 0 or a positive number, got {stray_weight!r}; try 0.1"
+            )
         if ends != "free" and template.periodic:
             raise InvalidInputError("ends must be 'free' for a periodic curve: it has none")
         self.points = points
@@ -112,6 +115,7 @@ class CurveProblem:
             parameters,
             self.weights,
             *self._fixed,
+            self.stray_weight,
             *self.unpack(gradient),
         )
         return cost, gradient

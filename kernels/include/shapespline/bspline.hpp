@@ -80,14 +80,14 @@ struct Basis {
     }
 };
 
-// Control points of the derivative: d_i = p (P_{i+1} - P_i) / (u_{i+p+1} - u_{i+1}); zero where the
-// knots coincide, for there the basis function they belong to is empty.
+// Control points of the derivative: d_i = p (P_{i+1} - P_i) / (u_{i+p+1} - u_{i+1}). No knot of the
+// domain repeats more than p times, so the p knots between are never all equal.
 inline std::vector<Vec2> derivative_points(const Knots &knots, std::span<const Vec2> points) {
     const int p = knots.degree;
     std::vector<Vec2> derivative(points.size() - 1);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         const double width = knots.values[i + p + 1] - knots.values[i + 1];
-        if (width > 0.0) derivative[i] = (p / width) * (points[i + 1] - points[i]);
+        derivative[i] = (p / width) * (points[i + 1] - points[i]);
     }
     return derivative;
 }

@@ -42,12 +42,15 @@ struct Samples {
 // them is compared with the segment between the points, at matching fractions (the Frechet term of
 // METHOD 6). The weight grows smoothly from zero, so that points may still drift apart.
 inline constexpr double kFreeGap = 0.125;
-inline constexpr int kStraySamples = 8;
+inline constexpr double kStraySamples = 8.0;  // a span
 
 struct Stray {
+    std::size_t before, after;  // the data points it lies between
+    double fraction;            // of the way from one to the other
     double parameter;
     Vec2 target;
     double weight;
+    double weight_slope;  // derivative of the weight with respect to the gap
 };
 
 template <class Visit>
@@ -56,20 +59,26 @@ void for_each_stray(const Knots &knots, const Samples &samples, Visit &&visit) {
     std::size_t n_spans = 0;
     for (std::size_t k = knots.degree; k < knots.n_coefficients(); ++k)
         n_spans += knots.values[k] < knots.values[k + 1];
-    const double free_gap = kFreeGap * knots.period() / static_cast<double>(n_spans);
+    const double span = knots.period() / static_cast<double>(n_spans);
     const std::size_t n = samples.size();
     for (std::size_t j = 0; j + 1 < n + (knots.periodic ? 1 : 0); ++j) {
         const bool closing = j + 1 == n;
         const double begin = samples.parameters[j];
         const double end = closing ? samples.parameters[0] + knots.period()
                                    : samples.parameters[j + 1];
-        const double excess = (end - begin) / free_gap - 1.0;
+        const double excess = (end - begin) / (kFreeGap * span) - 1.0;
         if (!(excess > 0.0)) continue;
         const Vec2 a = samples.points[j], b = samples.points[closing ? 0 : j + 1];
-        const double weight = samples.stray_weight * excess * excess / kStraySamples;
-        for (int i = 1; i <= kStraySamples; ++i) {
-            const double s = i / (kStraySamples + 1.0);
-            visit(Stray{begin + s * (end - begin), a + s * (b - a), weight});
+        // No more than the whole domain deserves, however far a parameter may have flown.
+        const double n_samples =
+            kStraySamples *
+            std::clamp(std::ceil((end - begin) / span), 1.0, static_cast<double>(n_spans));
+        const double unit = samples.stray_weight / n_samples;
+        const double slope = 2.0 * unit * excess / (kFreeGap * span);
+        for (double i = 1.0; i <= n_samples; ++i) {
+            const double s = i / (n_samples + 1.0);
+            visit(Stray{j, closing ? 0 : j + 1, s, begin + s * (end - begin), a + s * (b - a),
+                        unit * excess * excess, slope});
         }
     }
 }
@@ -111,7 +120,7 @@ inline double cost(const Knots &knots, std::span<const Vec2> control_points,
     });
 }
 
-// The plain f (no stray residuals) with df/dP_i = sum_j w_j N_i(t_j) r_j and df/dt_j = w_j r_j . C'(t_j); zero for what is fixed.
+// f with df/dP_i = sum_j w_j N_i(t_j) r_j and df/dt_j = w_j r_j . C'(t_j); zero for what is fixed.
 inline double cost_and_gradient(const Knots &knots, std::span<const Vec2> control_points,
                                 const Samples &samples, std::span<Vec2> control_gradient,
                                 double *parameter_gradient) {
@@ -133,6 +142,21 @@ inline double cost_and_gradient(const Knots &knots, std::span<const Vec2> contro
             }
             total += partial;
         }
+        for_each_stray(knots, samples, [&](const Stray &stray) {
+            cursor.seek(stray.parameter);
+            const Vec2 residual = cursor.point() - stray.target;
+            const Vec2 pull = stray.weight * residual;
+            total += dot(pull, residual);
+            Vec2 *local = gradient.data() + cursor.first_index();
+            for (int i = 0; i <= Degree; ++i) local[i] += cursor.basis()[i] * pull;
+            // The sample moves with both neighbours, and its weight with the gap between them.
+            const double along = dot(pull, cursor.tangent());
+            const double by_gap = 0.5 * stray.weight_slope * norm_sq(residual);
+            if (!samples.is_held(stray.before))
+                parameter_gradient[stray.before] += (1.0 - stray.fraction) * along - by_gap;
+            if (!samples.is_held(stray.after))
+                parameter_gradient[stray.after] += stray.fraction * along + by_gap;
+        });
         return 0.5 * total;
     });
     fold<Vec2>(gradient, control_gradient);
@@ -208,11 +232,9 @@ class LocalSystem {
             for (int b = 0; b <= a; ++b) {
                 const std::size_t ib = (first + b) % m;
                 const std::size_t i = std::max(ia, ib), k = std::min(ia, ib);
-                // Two basis functions of one periodic control point meet the diagonal twice.
-                const double times = a != b && i == k ? 2.0 : 1.0;
-                matrix.at(2 * i, 2 * k) += times * xx_[a][b];
-                matrix.at(2 * i + 1, 2 * k) += times * xy_[a][b];
-                matrix.at(2 * i + 1, 2 * k + 1) += times * yy_[a][b];
+                matrix.at(2 * i, 2 * k) += xx_[a][b];
+                matrix.at(2 * i + 1, 2 * k) += xy_[a][b];
+                matrix.at(2 * i + 1, 2 * k + 1) += yy_[a][b];
                 if (k < i) matrix.at(2 * i, 2 * k + 1) += xy_[a][b];
             }
         }
