@@ -102,7 +102,7 @@ def test_repetition_gives_the_same_bits(outline):
 def test_far_from_the_origin():
     points = flower(160).points
     near = fit_curve(points, n_control_points=20)
-    far = fit_curve(points + [1e9, -1e9], n_control_points=20)
+    far = fit_curve(points + np.array([1e9, -1e9]), n_control_points=20)
     # Coordinates of 1e9 are known to 1e-7, and so is everything made of them.
     assert far.rms_distance == pytest.approx(near.rms_distance, abs=1e-5)
 
