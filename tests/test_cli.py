@@ -109,6 +109,7 @@ def test_repeated_points_are_said(shapespline, tmp_path):
         ("1,2\n3,nan\n4,5\n", "line 2"),
         ("1,2\n3,x\n4,5\n", "line 2"),
         ("1,2,3\n4,5,6\n7,8,9\n", "expected 2 columns (x and y), found 3"),
+        ("x,y\n", "no points: only a line of words, 'x,y'"),
         ("1,2\n1,2\n", "distinct points"),
         ("0,0\n1,0\n", "degree"),
         ("0,0\n1,0\n2,1\n", "degree"),
@@ -128,6 +129,8 @@ def test_bad_outlines(shapespline, tmp_path, content, message):
     ("arguments", "code", "message"),
     [
         (["fit", "nothing.csv", "-o", "x.svg"], 1, "there is no such file"),
+        (["fit", ".", "-o", "x.svg"], 1, "it is a folder; name a file in it"),
+        (["fit", str(HAND), "-o", "."], 1, "it is a folder; name a file in it"),
         (["fit", str(HAND), "-o", "nowhere/x.svg"], 1, "does not exist; create it first"),
         (["fit", str(HAND), "-o", "x.foo"], 1, "writable endings: .json .svg"),
         (["fit", str(HAND), "-o", "x.svg", "--plot", "nowhere/x.png"], 1, "does not exist"),

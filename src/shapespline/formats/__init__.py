@@ -106,6 +106,8 @@ def read(
 .bmp .csv .dat .jpeg .jpg .json .npy .png .tif .tiff .tsv .txt .xy
     """
     path = Path(path)
+    if path.is_dir():
+        raise FormatError(f"cannot read {path}: it is a folder; name a file in it")
     reader = _function(path, "read")
     given = {"closed": closed, "y_down": y_down or None, **options}
     arguments = _checked(path, reader, given)
@@ -130,6 +132,8 @@ def check_output(path: str | os.PathLike[str]) -> None:
     FormatError
         If the folder does not exist or the file cannot be written.
     """
+    if Path(path).is_dir():
+        check_target(path)
     _function(Path(path), "encode")
     check_target(path)
 
@@ -217,8 +221,6 @@ def _checked(
 
 def _check_source(path: Path) -> None:
     """Say in a sentence why a file cannot be read, as far as that can be seen from outside."""
-    if path.is_dir():
-        raise FormatError(f"cannot read {path}: it is a folder; name a file in it")
     if not path.exists():
         raise FormatError(f"cannot read {path}: there is no such file")
     if path.is_file() and path.stat().st_size == 0:

@@ -150,6 +150,8 @@ def _dialect(lines: list[str]) -> tuple[Dialect, int]:
                 if line is second and not _is_header(first[1], dialect):
                     return dialect, 0
                 return dialect, line[0]
+    if second is None and not any(letter.isdigit() for letter in first[1]):
+        raise FormatError(f"no points: only a line of words, {_shown(first[1])}")
     # No line of two numbers to learn from: the likeliest dialect, for the diagnosis.
     sample = (first if second is None else second)[1]
     separator = next((mark for mark in (";", ",") if mark in sample), None)

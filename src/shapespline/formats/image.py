@@ -90,7 +90,9 @@ def load(path: Path) -> NDArray[Any]:
                 "not a PNG, JPEG, TIFF or BMP picture, or damaged from the start"
             ) from error
         except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
-            raise FormatError(f"too large a picture: {error}") from error
+            raise FormatError(
+                f"the picture has more than {LARGEST_IMAGE // 10**6} megapixels; scale it down"
+            ) from error
         except FormatError:
             raise
         except Exception as error:  # decoders raise whatever damage makes them stumble over
