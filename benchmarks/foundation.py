@@ -151,7 +151,7 @@ def literal_against_sensible() -> None:
     """Evaluations that direct D-BFGS from the sensible start needs to the literal run's error."""
     print("## The literal reading and the sensible one: evaluations to the same error\n")
     print("Literal: until it is within 1 % of the error that it ends at. Sensible: to that error,")
-    print("from the dominant points alone.\n")
+    print("from the start of `shapespline paper`, the plain problem.\n")
     print(
         "| outline, L | literal: points | E end | evaluations | sensible: points | E start |",
         end="",
