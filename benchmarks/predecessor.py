@@ -23,13 +23,14 @@ import numpy as np
 
 from shapespline.contour import Contour
 from shapespline.curve import BSplineCurve
-from shapespline.initial import Reading, initial_curve
+from shapespline.initial import initial_curve
 from shapespline.knots import clamped_knots, greville_abscissae, periodic_knots
 from shapespline.paper import paper_error
 from shapespline.parametrize import greville_matched, parametrize
 from shapespline.solvers.quasi_newton import make_solver
 
 if TYPE_CHECKING:
+    from shapespline.reading import Reading
     from shapespline.solvers.quasi_newton import QuasiNewton
     from shapespline.typing import FloatArray
 

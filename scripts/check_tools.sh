@@ -13,8 +13,8 @@ if ! "$python" -c 'import venv, ensurepip' >/dev/null 2>&1; then
     echo "make: this Python cannot make virtual environments: install its venv package (Debian, Ubuntu: apt install python3-venv)" >&2
     exit 1
 fi
-for compiler in "${CXX:-c++}" g++ clang++; do
-    # shellcheck disable=SC2086 # CXX may carry options
+# A CXX that is set is what the build takes: then nothing else counts.
+for compiler in ${CXX:-c++ g++ clang++}; do
     if echo 'int main() { auto f = []<int N>() { return N; }; return f.operator()<0>(); }' |
         $compiler -std=c++20 -x c++ -fsyntax-only - >/dev/null 2>&1; then
         exit 0

@@ -186,20 +186,42 @@ def test_help_does_not_load_the_numerical_packages():
 
 @pytest.mark.slow
 def test_interrupting_leaves_nothing(tmp_path):
-    outline, output = tmp_path / "long.csv", tmp_path / "long.svg"
-    t = np.linspace(0, 2 * np.pi, 200_000, endpoint=False)
+    outline, output = tmp_path / "long.npy", tmp_path / "long.svg"
+    t = np.linspace(0, 2 * np.pi, 1_000_000, endpoint=False)
     r = 10 + np.sin(37 * t)
-    np.savetxt(outline, np.column_stack([r * np.cos(t), r * np.sin(t)]), delimiter=",")
+    np.save(outline, np.column_stack([r * np.cos(t), r * np.sin(t)]))
     child = subprocess.Popen(
         [sys.executable, "-m", "shapespline", "fit", str(outline), "-o", str(output)],
         stderr=subprocess.PIPE,
         text=True,
         env=os.environ | {"PYTHONUNBUFFERED": "1"},
     )
-    time.sleep(4)
-    assert child.poll() is None, "the fit was done before it could be interrupted"
+    time.sleep(3)
     child.send_signal(signal.SIGINT)
     _, err = child.communicate(timeout=60)
     assert child.returncode == 130
     assert err == "shapespline: interrupted; nothing was left half written\n"
     assert sorted(tmp_path.iterdir()) == [outline]
+
+
+@pytest.mark.parametrize("option", ["--output", "--plot"])
+def test_the_input_is_never_overwritten(shapespline, tmp_path, option):
+    picture = tmp_path / "leaf.png"
+    picture.write_bytes((DATA / "images" / "fa_leaf_256.png").read_bytes())
+    drawing = tmp_path / "leaf.json"
+    assert shapespline("fit", picture, "-n", 12, "-o", drawing)[0] == 0
+    source, target = (drawing, drawing) if option == "--output" else (picture, picture)
+    before = source.read_bytes()
+    arguments = ["-o", target] if option == "--output" else ["-o", tmp_path / "x.svg"]
+    if option == "--plot":
+        arguments += ["--plot", target]
+    code, _, err = shapespline("fit", source, "-n", 12, *arguments)
+    assert code == 1
+    assert "is the input itself; choose another name" in err
+    assert source.read_bytes() == before
+
+
+def test_no_argument_shows_the_help(shapespline):
+    code, out, err = shapespline()
+    assert (code, err) == (0, "")
+    assert out.startswith("Usage: ")

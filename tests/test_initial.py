@@ -15,14 +15,11 @@ from shapespline.cpda import accumulate
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.initial import (
     CHORD_STEPS,
-    LITERAL,
-    OFFSETS,
-    SENSIBLE,
-    Reading,
     initial_curve,
 )
 from shapespline.knots import clamped_knots, greville_abscissae, periodic_knots
 from shapespline.parametrize import PARAMETRIZATIONS, parametrize
+from shapespline.reading import LITERAL, SENSIBLE, Reading
 
 degrees = pytest.mark.parametrize("degree", range(1, 10))
 # Petals and the bends between them at every 24th point, steps equal to 1 in 1000: not resampled.
@@ -246,7 +243,10 @@ def test_prominence():
 
 def test_offsets():
     contour = EVEN
-    found = {kind: with_field(offset=kind) for kind in OFFSETS}
+    found = {
+        kind: with_field(offset=kind)
+        for kind in ("difference", "curvature", "cpda", "squared", "none")
+    }
     on_data = contour.points[found["none"].dominant]
     assert_array_equal(found["none"].control_points, on_data)
     cpda, normals = found["cpda"].cpda, found["cpda"].frames.normals

@@ -293,7 +293,8 @@ def test_folder_that_cannot_be_written_is_refused_before_any_work(tmp_path, monk
 
 
 def test_figure_that_fails_leaves_nothing(sensible, tmp_path, monkeypatch):
-    figures = pytest.importorskip("shapespline.paper_figures")
+    from shapespline import paper_figures as figures
+
     pytest.importorskip("matplotlib")
 
     def fail(*_, **__):
@@ -309,7 +310,8 @@ def test_figure_that_fails_leaves_nothing(sensible, tmp_path, monkeypatch):
 
 
 def test_predecessor_inserts_until_it_is_as_near_or_twice_as_large(blob):
-    predecessor = pytest.importorskip("benchmarks.predecessor")
+    from benchmarks import predecessor
+
     first = initial_curve(blob, LENGTH, reading=replace(SENSIBLE, offset="none"))
     same = predecessor.predecessor_start(blob, LENGTH, np.inf, SENSIBLE)
     assert same.n_inserted == 0

@@ -26,8 +26,9 @@ if TYPE_CHECKING:
     )
     from shapespline.fitting import fit_curve
     from shapespline.formats import read, write
-    from shapespline.initial import LITERAL, SENSIBLE, InitialCurve, Reading, initial_curve
+    from shapespline.initial import InitialCurve, initial_curve
     from shapespline.optimization import optimize
+    from shapespline.reading import LITERAL, SENSIBLE, Reading
     from shapespline.reconstruction import fit_shape
 
 # Public name -> module that defines it.
@@ -42,12 +43,12 @@ _HOME = {
     "Frame": "contour",
     "InitialCurve": "initial",
     "InvalidInputError": "errors",
-    "LITERAL": "initial",
+    "LITERAL": "reading",
     "MissingExtraError": "errors",
     "OrderError": "errors",
     "Piece": "drawing",
-    "Reading": "initial",
-    "SENSIBLE": "initial",
+    "Reading": "reading",
+    "SENSIBLE": "reading",
     "Shape": "contour",
     "ShapesplineError": "errors",
     "Status": "drawing",

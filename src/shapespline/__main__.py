@@ -12,8 +12,10 @@ def main() -> None:
 
         print(f"shapespline {__version__}")
         return
-    from shapespline.cli import run
-
+    try:
+        from shapespline.cli import run
+    except KeyboardInterrupt:
+        sys.exit(130)
     sys.exit(run())
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from numbers import Real
+from numbers import Integral, Real
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,6 +30,8 @@ def float_array(values: ArrayLike, name: str) -> FloatArray:
         raise InvalidInputError(f"{name} must not be masked; drop the masked rows first")
     try:
         array = np.asarray(values)
+        if array.dtype.kind in "mM":
+            raise TypeError(f"dtype {array.dtype}")
         if array.dtype.kind == "c":
             raise InvalidInputError(
                 f"{name} must be real, got complex numbers; pass real and imaginary parts as two"
@@ -44,8 +46,15 @@ def float_array(values: ArrayLike, name: str) -> FloatArray:
         ) from None
 
 
+def is_number(value: object) -> bool:
+    """Whether a value is a real number, and neither a truth value nor a text."""
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
 def whole_number(value: object) -> int | None:
     """A number without fraction (3, 3.0, numpy.int64(3)) as an int; None for anything else."""
-    if isinstance(value, bool) or not isinstance(value, Real) or not float(value).is_integer():
+    if isinstance(value, bool) or not isinstance(value, Real):
         return None
-    return int(float(value))
+    if isinstance(value, Integral):
+        return int(value)
+    return int(float(value)) if float(value).is_integer() else None

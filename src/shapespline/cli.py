@@ -29,7 +29,6 @@ INTERRUPTED = 130
 app = typer.Typer(
     name="shapespline",
     help="From a 2D shape to the smallest B-spline that stays within your tolerance.",
-    no_args_is_help=True,
     add_completion=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
@@ -49,6 +48,18 @@ class Polarity(StrEnum):
     auto = "auto"
     dark = "dark"
     light = "light"
+
+
+class Channel(StrEnum):
+    """The value of a pixel."""
+
+    auto = "auto"
+    grey = "grey"
+    red = "red"
+    green = "green"
+    blue = "blue"
+    alpha = "alpha"
+    difference = "difference"
 
 
 Input = Annotated[
@@ -74,6 +85,9 @@ ShapePolarity = Annotated[
 Outlines = Annotated[
     Selection, typer.Option("--contours", help="Outlines of a picture: all, or the longest.")
 ]
+ValueOfPixels = Annotated[
+    Channel, typer.Option("--channel", help="What is cut at the level in a picture.")
+]
 MinArea = Annotated[
     float | None, typer.Option(help="Smallest outline of a picture, square pixels.")
 ]
@@ -82,11 +96,13 @@ Degree = Annotated[int, typer.Option(help="Degree of the curve, 1 to 9.")]
 
 @app.callback(invoke_without_command=True)
 def _main(
+    context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Show the version and exit.")] = False,
 ) -> None:
     if version:
         typer.echo(f"shapespline {ss.__version__}")
-        raise typer.Exit
+    elif context.invoked_subcommand is None:
+        typer.echo(context.get_help())
 
 
 @app.command()
@@ -111,6 +127,7 @@ def fit(
     y_down: YDown = False,
     level: Level = None,
     polarity: ShapePolarity = Polarity.auto,
+    channel: ValueOfPixels = Channel.auto,
     contours: Outlines = Selection.all,
     min_area: MinArea = None,
 ) -> None:
@@ -122,7 +139,10 @@ def fit(
         from shapespline.plot import check_picture
 
         check_picture(plot)
-    shape = _read(source, closed, y_down, level, polarity, contours, min_area)
+    for target in (output, plot):
+        if target is not None and target.exists() and source.exists() and target.samefile(source):
+            raise ss.InvalidInputError(f"{target} is the input itself; choose another name")
+    shape = _read(source, closed, y_down, level, polarity, channel, contours, min_area)
     began = time.perf_counter()
     drawing = ss.fit_shape(shape, n_control_points=control_points, degree=degree)
     seconds = time.perf_counter() - began
@@ -152,6 +172,7 @@ def paper(
     y_down: YDown = False,
     level: Level = None,
     polarity: ShapePolarity = Polarity.auto,
+    channel: ValueOfPixels = Channel.auto,
     min_area: MinArea = None,
 ) -> None:
     """Run the published method on the longest outline of INPUT: figures and a table."""
@@ -159,7 +180,7 @@ def paper(
     from shapespline.paper_report import check_folder, write_report
 
     check_folder(output)
-    shape = _read(source, closed, y_down, level, polarity, Selection.all, min_area)
+    shape = _read(source, closed, y_down, level, polarity, channel, Selection.all, min_area)
     run = run_paper(shape.longest, length, literal=literal, degree=degree)
     for path in write_report(run, output):
         typer.echo(str(path))
@@ -171,6 +192,7 @@ def _read(
     y_down: bool,
     level: float | None,
     polarity: Polarity,
+    channel: Channel,
     contours: Selection,
     min_area: float | None,
 ) -> Shape:
@@ -181,6 +203,7 @@ def _read(
         y_down=y_down,
         level=level,
         polarity=None if polarity is Polarity.auto else polarity.value,
+        channel=None if channel is Channel.auto else channel.value,
         contours=None if contours is Selection.all else contours.value,
         min_area=min_area,
     )
@@ -190,7 +213,7 @@ def _read(
 
 
 def _summary(output: Path, drawing: Drawing, seconds: float) -> str:
-    """One line on what was written, and one for every fit that says more than KEPT."""
+    """One line on what was written, and one for every fit that keeps less than was asked."""
     fits = drawing.fits
     points = sum(fit.n_stored_points for fit in fits)
     farthest = max(fit.hausdorff_distance for fit in fits)
@@ -204,7 +227,7 @@ def _summary(output: Path, drawing: Drawing, seconds: float) -> str:
 
 def _remarks(fits: tuple[Fit, ...]) -> Iterator[str]:
     for index, fit in enumerate(fits):
-        if fit.status != ss.Status.KEPT:
+        if not fit.kept:
             yield f"curve {index}: {fit.status.value}"
 
 

@@ -213,9 +213,12 @@ class Drawing:
     def __init__(
         self, fits: Sequence[Fit], parents: Sequence[int] | None = None, frame: Frame | None = None
     ) -> None:
-        fits = tuple(fits)
+        fits = (fits,) if isinstance(fits, Fit) else tuple(fits)
         if not fits:
             raise InvalidInputError("fits must hold at least one Fit, got none")
+        for fit in fits:
+            if not isinstance(fit, Fit):
+                raise InvalidInputError(f"fits must be Fit objects, got {type(fit).__name__}")
         object.__setattr__(self, "fits", fits)
         object.__setattr__(self, "parents", checked_parents(parents, len(fits)))
         object.__setattr__(self, "frame", frame)

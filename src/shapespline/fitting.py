@@ -11,6 +11,7 @@ from shapespline.contour import Contour
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.knots import check_count, check_degree
 from shapespline.optimization import checked_weights, optimize
+from shapespline.solvers.iteration import Limits
 
 if TYPE_CHECKING:
     from shapespline.drawing import Fit
@@ -24,6 +25,10 @@ LARGEST_PART = 0.25
 SEARCH_ROUNDS = 2
 # Deviation, in parts of the median distance between points, that the sampling itself may hide.
 SAMPLING_FLOOR = 0.01
+# Points that the search for a size looks at: more tell it nothing new.
+SEARCH_POINTS = 10_000
+# The start has been balanced already: what is left falls by 1e-4 and less.
+FINAL_LIMITS = Limits(max_iterations=300, max_evaluations=1000, relative_decrease=1e-4)
 # Sizes in a row that do not lower the criterion before the search ends; not before this size, for
 # an outline with many features shows nothing until there is a control point for each.
 SEARCH_PATIENCE = 3
@@ -87,7 +92,7 @@ def fit_curve(
     if not isinstance(points, Contour):
         points = Contour(points, closed)
     elif closed is not None and closed != points.closed:
-        points = Contour(points.points, closed)
+        points = Contour.silently(points.points[points.source], closed)
     contour = points
     summed = checked_weights(weights, contour)
     if len(contour) < degree + 1:
@@ -106,7 +111,13 @@ def fit_curve(
             )
     start = balanced_start(contour, count, degree, summed)
     return optimize(
-        contour, start, method, weights=weights, stray_weight=STRAY_WEIGHT, callback=callback
+        contour,
+        start,
+        method,
+        weights=weights,
+        stray_weight=STRAY_WEIGHT,
+        limits=FINAL_LIMITS,
+        callback=callback,
     )
 
 
@@ -114,8 +125,11 @@ def chosen_count(contour: Contour, degree: int, weights: FloatArray | None = Non
     """Number of control points that the Bayesian information criterion favours.
 
     Minimises n log(rms^2 + floor^2) + 2 m log n over sizes m that grow by a quarter, where the
-    floor is what the sampling cannot show (Schwarz 1978), up to a quarter of the number of points.
+    floor is what the sampling cannot show (Schwarz 1978), up to a quarter of the number of points;
+    on a resampled outline where there are more than 10 000.
     """
+    if len(contour) > SEARCH_POINTS and weights is None:
+        contour = contour.resampled(SEARCH_POINTS)
     n = len(contour)
     steps = np.diff(contour.arc_length)
     floor_sq = (SAMPLING_FLOOR * float(np.median(steps))) ** 2

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.contour import Contour
-from shapespline.cpda import Cpda, check_window, chord_to_point
+from shapespline.contour import Contour, checked_contour
+from shapespline.cpda import Cpda, chord_to_point
 from shapespline.curve import BSplineCurve
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.knots import check_degree, clamped_knots, greville_abscissae, periodic_knots
-from shapespline.parametrize import PARAMETRIZATIONS, greville_matched, parametrize
+from shapespline.parametrize import greville_matched, parametrize
+from shapespline.reading import SENSIBLE, Reading
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
@@ -32,71 +33,8 @@ EVEN_SPACING = 1.5
 CHORD_STEPS = 16
 # The curvature offset may push a control point this part of its distance to the next ones.
 LARGEST_OFFSET = 0.25
-OFFSETS = ("difference", "curvature", "cpda", "squared", "none")
-
-
-@dataclass(frozen=True)
-class Reading:
-    """How the open points of the paper are read (METHOD, section 2); ``SENSIBLE`` by default.
-
-    Attributes
-    ----------
-    signed : bool
-        Signed CPDA sums (reading 4).
-    window : int or None
-        Moving average in points, None grows with L and noise (reading 7).
-    prominence : float or None
-        Part of the largest H that a maximum must rise, None takes every one (reading 8).
-    offset : {"difference", "curvature", "cpda", "squared", "none"}
-        How a control point leaves its dominant point (reading 9): against (p + 1) / 24 of the
-        second difference of the dominant points (quasi-interpolation); or along the normal by
-        (p + 1) / 24 k h^2 with the curvature k and the control spacing h, by H_r, or by the
-        paper's (max H) H_r, which is a squared length; or not at all.
-    parametrization : {"greville", "uniform", "chord", "centripetal"}
-        Parameters of the data (reading 11).
-    clamped : bool
-        Clamped knots and P_0 = Q_0, P_m = Q_n for closed data too (reading 12).
-    resampled : bool
-        Take CPDA on points at equal arc length (reading 6).
-    """
-
-    signed: bool = True
-    window: int | None = None
-    prominence: float | None = 0.02
-    offset: str = "difference"
-    parametrization: str = "greville"
-    clamped: bool = False
-    resampled: bool = True
-
-    def __post_init__(self) -> None:
-        if self.offset not in OFFSETS:
-            raise InvalidInputError(
-                f"offset must be one of {', '.join(OFFSETS)}, got {self.offset!r}"
-            )
-        if self.window is not None:
-            check_window(self.window)
-        if self.prominence is not None and not 0 <= self.prominence < 1:
-            raise InvalidInputError(
-                f"prominence must be None or a part of the largest H, 0 to below 1,"
-                f" got {self.prominence!r}"
-            )
-        known = ("greville", *PARAMETRIZATIONS)
-        if self.parametrization not in known:
-            raise InvalidInputError(
-                f"parametrization must be one of {', '.join(known)}, got {self.parametrization!r}"
-            )
-
-
-SENSIBLE = Reading()
-LITERAL = Reading(
-    signed=False,
-    window=3,
-    prominence=None,
-    offset="squared",
-    parametrization="uniform",
-    clamped=True,
-    resampled=False,
-)
+# More CPDA points than this are no outline but a slip of the unit.
+MOST_STEPS = 100_000_000
 
 
 class Frames(NamedTuple):
@@ -197,6 +135,9 @@ def initial_curve(
     >>> start.n_control_points, start.dominant[:3].tolist()
     (10, [0, 24, 48])
     """
+    checked_contour(contour, "contour")
+    if not isinstance(reading, Reading):
+        raise InvalidInputError(f"reading must be a Reading, got {reading!r}; SENSIBLE or LITERAL")
     degree = check_degree(degree)
     if len(contour) < degree + 1:
         raise DegenerateContourError(
@@ -210,7 +151,7 @@ def initial_curve(
         signed=reading.signed,
         window=reading.window,
         prominence=reading.prominence,
-        spacing=1 if reading.prominence is None else max(1, steps // 2),
+        spacing=max(1, steps // 2) if reading.spacing is None else reading.spacing,
     )
     periodic = contour.closed and not reading.clamped
     needed = max(degree + 1, n_control_points) - (0 if periodic else 2)
@@ -218,7 +159,7 @@ def initial_curve(
     if not periodic:  # the ends have control points of their own
         stations = stations[(stations > 0) & (stations < len(samples) - 1)]
     if len(stations) < needed:
-        if reading.prominence is None:
+        if not reading.supplemented:
             raise DegenerateContourError(
                 f"length {steps} finds {len(stations)} maxima, at least {needed} are needed for"
                 f" degree {degree}; shorten the length or lower the degree"
@@ -253,6 +194,11 @@ def _sampled(
                 f" ({0.5 * contour.length:g}), got {arc_length!r}"
             )
         n_steps = round(contour.length * CHORD_STEPS / arc_length)
+        if n_steps > MOST_STEPS:
+            raise InvalidInputError(
+                f"arc_length must be a length in data units, got {arc_length!r} on an outline of"
+                f" length {contour.length:g}; lengthen it"
+            )
         return contour.resampled(n_steps if contour.closed else n_steps + 1), CHORD_STEPS
     if length is None:
         length = DEFAULT_LENGTH
@@ -294,7 +240,7 @@ def _frames(samples: Contour, cpda: Cpda, reading: Reading) -> Frames:
     the side taken from the signed CPDA sum, and none where that is below its floor (reading 10).
     """
     points = samples.points
-    if reading.prominence is None:
+    if reading.normals == "neighbours":
         tangents = _unit(_central_difference(points, 1, samples.closed))
         return Frames(tangents, _unit(_central_difference(tangents, 1, samples.closed)))
     tangents = _unit(_central_difference(points, cpda.length, samples.closed))

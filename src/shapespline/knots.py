@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.arrays import float_array, whole_number
 from shapespline.errors import DegenerateContourError, InvalidInputError, OrderError
 
 if TYPE_CHECKING:
     from shapespline.typing import ArrayLike, FloatArray
 
-MAX_DEGREE = 9
+MAX_DEGREE = _kernels.MAX_DEGREE
 
 
 def check_degree(degree: int) -> int:

@@ -5,11 +5,13 @@ Moves control points and location parameters together from a start, then verifie
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from shapespline.arrays import float_array
+from shapespline.arrays import float_array, is_number
+from shapespline.contour import Contour, checked_contour
 from shapespline.distance import two_sided_distance
 from shapespline.drawing import Fit, Iteration, Status
 from shapespline.errors import InvalidInputError
@@ -18,12 +20,11 @@ from shapespline.residuals import CurveProblem
 from shapespline.solvers.iteration import IterationRecord, Limits, Result, Solver, Stop, minimize
 from shapespline.solvers.levenberg_marquardt import LevenbergMarquardt
 from shapespline.solvers.quasi_newton import METHODS as QUASI_NEWTON
-from shapespline.solvers.quasi_newton import make_solver
+from shapespline.solvers.quasi_newton import QuasiNewton, make_solver
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from shapespline.contour import Contour
     from shapespline.curve import BSplineCurve
     from shapespline.distance import Distances
     from shapespline.typing import ArrayLike, FloatArray
@@ -105,11 +106,17 @@ def optimize(
     >>> fit.n_control_points, fit.rms_distance < 0.4, fit.status == Status.KEPT
     (10, True, True)
     """
+    checked_contour(contour, "contour")
     solver, name = _solver(method)
     spline = start.spline
+    if spline.periodic and not contour.closed:
+        raise InvalidInputError(
+            "start must be an open curve for an open contour, got a periodic one;"
+            " make it from the same contour"
+        )
     if ends is None:
         ends = "free" if spline.periodic else "interpolated"
-    if tolerance is not None and not tolerance > 0:
+    if tolerance is not None and not (is_number(tolerance) and 0 < tolerance < np.inf):
         raise InvalidInputError(f"tolerance must be positive, got {tolerance!r}; in data units")
     middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
     problem = CurveProblem(
@@ -120,7 +127,7 @@ def optimize(
         stray_weight=stray_weight,
     )
     if tolerance is not None:
-        limits = _stopping_at(limits, tolerance, problem)
+        limits = _stopping_at(limits, tolerance, problem, contour.closed)
     n = len(contour)
 
     def iteration(record: IterationRecord) -> Iteration:
@@ -160,7 +167,7 @@ def optimize(
 
 def _solver(method: str | Solver[Any, Any]) -> tuple[Solver[Any, Any], str]:
     """The solver and its name."""
-    if not isinstance(method, str):
+    if isinstance(method, LevenbergMarquardt | QuasiNewton):
         return method, type(method).__name__
     if method not in METHODS:
         raise InvalidInputError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
@@ -202,15 +209,19 @@ def _start_parameters(start: Start, contour: Contour) -> FloatArray:
     return nondecreasing(np.unwrap(parameters, period=end - begin), end - begin)
 
 
-def _stopping_at(limits: Limits, tolerance: float, problem: CurveProblem) -> Limits:
-    """The limits, and a stop where no residual exceeds the tolerance."""
+def _stopping_at(limits: Limits, tolerance: float, problem: CurveProblem, closed: bool) -> Limits:
+    """The limits, and a stop where the tolerance is kept both ways."""
+    data = Contour.silently(problem.points, closed)
 
     def reached(x: FloatArray) -> bool:
-        residuals = problem.curve(x)(problem.unpack(x)[1]) - problem.points
-        return float(np.hypot(residuals[:, 0], residuals[:, 1]).max()) <= tolerance
+        curve = problem.curve(x)
+        residuals = curve(problem.unpack(x)[1]) - problem.points
+        # No residual is shorter than its distance: the full check is for when these are met.
+        if float(np.hypot(residuals[:, 0], residuals[:, 1]).max()) <= tolerance:
+            return two_sided_distance(curve, data).hausdorff_distance <= tolerance
+        return limits.reached is not None and limits.reached(x)
 
-    fields = {name: getattr(limits, name) for name in limits.__dataclass_fields__}
-    return Limits(**(fields | {"reached": reached}))
+    return replace(limits, reached=reached)
 
 
 def _rest(record: IterationRecord) -> tuple[float, int, float, float]:
@@ -223,18 +234,15 @@ def _status(result: Result, found: Distances, tolerance: float | None) -> Status
     steps = f"after {result.history[-1].iteration} iterations ({result.stop.value})"
     if result.stop is Stop.CANCELLED:
         return Status.CANCELLED.saying(f"cancelled by the callback {steps}: {figures}")
-    kept = tolerance is None or found.hausdorff_distance <= tolerance
-    if not kept and result.stop is Stop.TARGET:
-        return Status.EXCEEDED.saying(
-            f"the data are within {tolerance:.6g} of the curve but not the curve of the data:"
-            f" {figures}; take more control points"
-        )
+    if tolerance is not None and found.hausdorff_distance <= tolerance:
+        return Status.KEPT.saying(f"tolerance {tolerance:.6g} kept, ended {steps}: {figures}")
     if result.stop in (Stop.ITERATIONS, Stop.EVALUATIONS):
-        return Status.BUDGET.saying(f"stopped {steps}: {figures}")
-    if not kept:
-        return Status.EXCEEDED.saying(
-            f"tolerance {tolerance:.6g} not reached {steps}: {figures};"
-            " take more control points or a larger tolerance"
+        return Status.BUDGET.saying(
+            f"stopped {steps}: {figures}; go on from here with optimize(contour, fit)"
         )
-    promise = "no tolerance asked for" if tolerance is None else f"tolerance {tolerance:.6g} kept"
-    return Status.KEPT.saying(f"{promise}, ended {steps}: {figures}")
+    if tolerance is None:
+        return Status.KEPT.saying(f"no tolerance asked for, ended {steps}: {figures}")
+    return Status.EXCEEDED.saying(
+        f"tolerance {tolerance:.6g} not reached {steps}: {figures};"
+        " take more control points or a larger tolerance"
+    )

@@ -20,8 +20,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from shapespline.errors import InvalidInputError
-from shapespline.initial import LITERAL, SENSIBLE, InitialCurve, initial_curve
+from shapespline.initial import InitialCurve, initial_curve
 from shapespline.optimization import METHODS, optimize
+from shapespline.reading import LITERAL, SENSIBLE
 from shapespline.solvers.iteration import Limits, Solver
 from shapespline.solvers.quasi_newton import make_solver
 

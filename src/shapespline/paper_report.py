@@ -13,6 +13,7 @@ import numpy as np
 
 from shapespline.errors import FormatError
 from shapespline.formats.atomic import check_target, write_atomically
+from shapespline.plot import check_matplotlib
 
 if TYPE_CHECKING:
     from shapespline.paper import PaperRun
@@ -43,7 +44,10 @@ def check_folder(folder: str | os.PathLike[str]) -> Path:
     ------
     FormatError
         If neither the folder nor its parent exists, or it cannot be written.
+    MissingExtraError
+        If matplotlib is not installed.
     """
+    check_matplotlib()
     folder = Path(folder)
     if folder.exists() and not folder.is_dir():
         raise FormatError(f"cannot write the report to {folder}: it is a file; name a folder")
@@ -64,7 +68,7 @@ def write_report(run: PaperRun, folder: str | os.PathLike[str]) -> list[Path]:
     """Write the figures of a run as PNG, and its table as ``report.md`` and ``table.csv``.
 
     The folder is created if its parent exists. Everything is drawn before the first file is
-    written, so that a failure leaves nothing half done.
+    written, and each file is written whole or not at all.
 
     Returns
     -------

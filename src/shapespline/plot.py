@@ -9,6 +9,7 @@ the same version of matplotlib.
 from __future__ import annotations
 
 import io
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -101,21 +102,27 @@ def plot_fit(drawing: Drawing, path: str | os.PathLike[str]) -> None:
 
 
 def check_picture(path: str | os.PathLike[str]) -> None:
-    """Raise before any work if no PNG file can be written there."""
+    """Raise before any work if no PNG file can be drawn, or written there."""
+    check_matplotlib()
     if Path(path).suffix.lower() != ".png":
         raise UnknownFormatError(f"{Path(path).name}: pictures are written as .png only")
     check_target(path)
 
 
-def new_figure(width: float, height: float) -> Figure:
-    """Return an empty figure; its sizes in inches of 160 pixels."""
-    try:
-        from matplotlib.figure import Figure
-        from matplotlib.layout_engine import ConstrainedLayoutEngine
-    except ImportError as error:
+def check_matplotlib() -> None:
+    """Raise if matplotlib is not installed."""
+    if find_spec("matplotlib") is None:
         raise MissingExtraError(
             'pictures need matplotlib; install it with: pip install "shapespline[plot]"'
-        ) from error
+        )
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Return an empty figure; its sizes in inches of 160 pixels."""
+    check_matplotlib()
+    from matplotlib.figure import Figure
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
     layout = ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08)
     return Figure(figsize=(width, height), dpi=DPI, layout=layout, facecolor="white")
 
@@ -322,13 +329,16 @@ def _caption(drawing: Drawing) -> str:
     degrees = "/".join(map(str, sorted({fit.degree for fit in fits})))
     contours = "" if len(fits) == 1 else f"{len(fits)} contours, "
     count = sum(fit.n_control_points for fit in fits)
-    n_kept = sum(fit.kept for fit in fits)
-    if len(fits) == 1:
-        kept = f"tolerance {fits[0].tolerance:.4g} {'kept' if n_kept else 'not kept'}"
-    else:
-        kept = f"tolerance kept by {n_kept} of {len(fits)}"
+    # Where none was asked for, the tolerance is the distance itself and says nothing more.
+    asked = [fit for fit in fits if fit.tolerance != fit.hausdorff_distance]
+    n_kept = sum(fit.kept for fit in asked)
+    kept = ""
+    if len(asked) == 1:
+        kept = f", tolerance {asked[0].tolerance:.4g} {'kept' if n_kept else 'not kept'}"
+    elif asked:
+        kept = f", tolerance kept by {n_kept} of {len(asked)}"
     return (
         f"{contours}{n_points.sum()}{of_all} points, {count} control points of degree {degrees}\n"
         f"rms {rms:.4g}, maximum {max(fit.max_distance for fit in fits):.4g}, two-sided"
-        f" {max(fit.hausdorff_distance for fit in fits):.4g}, {kept}"
+        f" {max(fit.hausdorff_distance for fit in fits):.4g}{kept}"
     )

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from shapespline.contour import Shape
 from shapespline.drawing import Drawing
 from shapespline.errors import InvalidInputError
 from shapespline.fitting import fit_curve
 
 if TYPE_CHECKING:
-    from shapespline.contour import Shape
     from shapespline.optimization import Callback
 
 
@@ -49,6 +49,11 @@ def fit_shape(
     >>> len(drawing), drawing.fits[0].n_control_points
     (1, 12)
     """
+    if not isinstance(shape, Shape):
+        raise InvalidInputError(
+            f"shape must be a Shape, got {type(shape).__name__};"
+            " make one with Shape([contour]), or call fit_curve"
+        )
     fits = []
     for index, contour in enumerate(shape):
         try:

@@ -14,6 +14,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from shapespline.contour import Contour, Shape
 from shapespline.drawing import Drawing, Fit
 from shapespline.errors import (
     FormatError,
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Mapping
 
-    from shapespline.contour import Shape
 
 __all__ = [
     "FORMATS",
@@ -37,7 +37,6 @@ __all__ = [
     "readable",
     "writable",
     "write",
-    "write_atomically",
 ]
 
 
@@ -132,10 +131,8 @@ def check_output(path: str | os.PathLike[str]) -> None:
     FormatError
         If the folder does not exist or the file cannot be written.
     """
-    if Path(path).is_dir():
-        check_target(path)
-    _function(Path(path), "encode")
     check_target(path)
+    _function(Path(path), "encode")
 
 
 def write(path: str | os.PathLike[str], drawing: Drawing | Fit, **options: object) -> None:
@@ -159,12 +156,17 @@ def write(path: str | os.PathLike[str], drawing: Drawing | Fit, **options: objec
         If the folder does not exist, the file cannot be written, or the format cannot hold the
         drawing.
     """
+    if isinstance(drawing, Shape | Contour):
+        raise InvalidInputError(
+            f"drawing must be a Drawing or a Fit, got {type(drawing).__name__};"
+            " make one with fit_shape or fit_curve"
+        )
+    if isinstance(drawing, Fit):
+        drawing = Drawing([drawing])
     path = Path(path)
     encode = _function(path, "encode")
     arguments = _checked(path, encode, options)
     check_target(path)
-    if isinstance(drawing, Fit):
-        drawing = Drawing([drawing])
     write_atomically(path, cast("bytes", encode(drawing, **arguments)))
 
 
@@ -191,13 +193,11 @@ def _function(path: Path, name: str) -> Callable[..., object]:
         if suffix in entry.suffixes and (entry.reads if name == "read" else entry.writes):
             module = import_module(f"shapespline.formats.{entry.module}")
             return cast("Callable[..., object]", getattr(module, name))
-    role, known = ("reader", readable()) if name == "read" else ("writer", writable())
-    ending = f"for {path.suffix!r}" if suffix else "for a name without an ending"
-    raise UnknownFormatError(
-        f"{path.name}: no {role} {ending}; {role[:4]}able endings: {' '.join(known)}"
-        if name == "read"
-        else f"{path.name}: no {role} {ending}; writable endings: {' '.join(known)}"
+    role, verb, known = (
+        ("reader", "readable", readable()) if name == "read" else ("writer", "writable", writable())
     )
+    ending = f"for {path.suffix!r}" if suffix else "for a name without an ending"
+    raise UnknownFormatError(f"{path.name}: no {role} {ending}; {verb} endings: {' '.join(known)}")
 
 
 def _checked(

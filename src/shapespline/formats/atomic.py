@@ -29,6 +29,8 @@ def check_target(path: str | os.PathLike[str]) -> Path:
         raise FormatError(f"cannot write {path}: it is a folder; name a file in it")
     if path.exists() and not os.access(path, os.W_OK):
         raise FormatError(f"cannot write {path}: the file is write-protected")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise FormatError(f"cannot write {path}: the folder {folder} is write-protected")
     return path
 
 
@@ -38,7 +40,7 @@ def write_atomically(path: str | os.PathLike[str], data: bytes) -> None:
     The bytes go to a temporary file in the same folder, which then takes the place of the
     target; whatever happens, the temporary file does not stay. An existing file keeps its
     permissions, a new one gets the usual ones, a symbolic link keeps pointing to its target, and
-    what is not a regular file (a pipe, ``/dev/stdout``) is written to directly.
+    what is not a regular file (a named pipe) is written to directly.
 
     Parameters
     ----------

@@ -163,7 +163,8 @@ def _is_header(line: str, dialect: Dialect) -> bool:
     fields = dialect.fields(line)
     if dialect.separator is None:
         fields = fields[:1]
-    return all(_number(field) is None for field in fields)
+    begins_a_number = fields[0].lstrip("+-.,")[:1].isdigit()
+    return not begins_a_number and all(_number(field) is None for field in fields)
 
 
 def _number(field: str) -> float | None:

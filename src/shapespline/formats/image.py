@@ -93,7 +93,7 @@ def load(path: Path) -> NDArray[Any]:
             raise FormatError(
                 f"the picture has more than {LARGEST_IMAGE // 10**6} megapixels; scale it down"
             ) from error
-        except FormatError:
+        except (FormatError, MemoryError):
             raise
         except Exception as error:  # decoders raise whatever damage makes them stumble over
             raise FormatError(f"the picture is damaged or cut off: {error}") from error

@@ -24,7 +24,6 @@ from __future__ import annotations
 import json
 import math
 import sys
-import warnings
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -32,7 +31,7 @@ import numpy as np
 from shapespline.contour import Contour, Frame
 from shapespline.curve import BSplineCurve
 from shapespline.drawing import Drawing, Fit, Iteration, Status
-from shapespline.errors import DroppedPointsWarning, FormatError, InvalidInputError
+from shapespline.errors import FormatError, InvalidInputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -369,9 +368,7 @@ def _contour(value: object, where: str) -> Contour:
     source = list(range(len(points)))
     if fields["source"] is not None:
         source = _indices(fields["source"], f"{where}.source", 0, len(points))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DroppedPointsWarning)
-        contour = Contour(points[source], _boolean(fields["closed"], f"{where}.closed"))
+    contour = Contour.silently(points[source], _boolean(fields["closed"], f"{where}.closed"))
     if contour.source.tolist() != source or len(contour) != len(points):
         raise FormatError(f"{where}: source does not lead to the points, or two neighbours agree")
     return contour

@@ -52,4 +52,5 @@ def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Sha
         hint = "; transpose it?" if array.ndim == 2 and array.shape[0] == 2 else ""
         raise FormatError(f"expected an array of shape (n, 2), got {array.shape}{hint}")
     points = array.astype(np.float64)
-    return Shape([Contour(turned_over(points) if y_down else points, closed)])
+    contour = Contour(points, closed)
+    return Shape([Contour(turned_over(points), closed) if y_down else contour])

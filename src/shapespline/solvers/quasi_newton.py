@@ -35,11 +35,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Final, Literal, Protocol, get_args
+from typing import TYPE_CHECKING, Final, Literal, get_args
 
 import numpy as np
 
 from shapespline.errors import InvalidInputError
+from shapespline.solvers.hessian_model import (
+    DenseInverse,
+    DirectDiagonal,
+    FixedDiagonal,
+    HessianModel,
+    InverseDiagonal,
+    LimitedMemory,
+    Pair,
+)
 from shapespline.solvers.iteration import State
 from shapespline.solvers.line_search import LineSearchResult, Wolfe, dot, wolfe_search
 
@@ -51,174 +60,9 @@ if TYPE_CHECKING:
 
 StartDiagonal = Literal["gauss-newton", "identity"]
 
-_FLOOR = 1e-12  # of the old entry; a diagonal must stay positive in spite of round-off
 _LEAST_CURVATURE = 1e-3  # y's over -s'g; the Wolfe conditions with c2 = 0.9 guarantee 0.1
 _SEARCH_EVALUATIONS = 30
 _MOST_DENSE_UNKNOWNS = 5000  # 200 MB a matrix, three of them during an update
-
-
-@dataclass(frozen=True, slots=True)
-class Pair:
-    """A step s, the change of the gradient y and their product rho = y's > 0."""
-
-    s: FloatArray
-    y: FloatArray
-    rho: float
-
-
-class HessianModel(Protocol):
-    """An immutable stand-in for the Hessian."""
-
-    def direction(self, gradient: FloatArray, /) -> FloatArray:
-        """Return the search direction as a fresh array."""
-
-    def updated(self, pair: Pair, /) -> HessianModel:
-        """Return the model after a step; it may keep the pair's arrays."""
-
-
-@dataclass(frozen=True, slots=True)
-class FixedDiagonal:
-    """B~ is the start diagonal (one-step secant), and the base of the other diagonals.
-
-    With ``secant`` the model is BFGS(B~, pair) and ``diagonal`` is that of B~, one update behind;
-    without, the model is the diagonal alone.
-    """
-
-    diagonal: FloatArray
-    secant: bool = True
-    pair: Pair | None = None
-
-    def solve(self, v: FloatArray) -> FloatArray:
-        """Replace v by B~^-1 v, in place."""
-        v /= self.diagonal
-        return v
-
-    def diagonal_after(self, pair: Pair) -> FloatArray:
-        """Return the diagonal that stands in for BFGS(B~, pair)."""
-        return self.diagonal
-
-    def direction(self, gradient: FloatArray) -> FloatArray:
-        """Return -B+^-1 g, with the inverse as in Eq. 11 of [1] (Eq. 6.17 of [2])."""
-        if self.pair is None:
-            d = self.solve(gradient.copy())
-            return np.negative(d, out=d)
-        s, y, rho = self.pair.s, self.pair.y, self.pair.rho
-        a = dot(s, gradient) / rho
-        q = y * -a
-        q += gradient
-        z = self.solve(q)
-        z += s * (a - dot(y, z) / rho)
-        return np.negative(z, out=z)
-
-    def updated(self, pair: Pair) -> FixedDiagonal:
-        """Catch up by the pair kept (secant) or take the new one at once."""
-        if not self.secant:
-            return type(self)(self.diagonal_after(pair), False)
-        diagonal = self.diagonal if self.pair is None else self.diagonal_after(self.pair)
-        return type(self)(diagonal, True, pair)
-
-
-class DirectDiagonal(FixedDiagonal):
-    """B~ is the diagonal of the last matrix (Eq. 10 of [1])."""
-
-    __slots__ = ()
-
-    def diagonal_after(self, pair: Pair) -> FloatArray:
-        """Return b + y^2 / rho - (b s)^2 / s'Bs, floored at a fraction of b."""
-        b = self.diagonal
-        bs = b * pair.s
-        curvature = dot(bs, pair.s)
-        bs *= bs
-        bs /= curvature
-        after = pair.y * pair.y
-        after /= pair.rho
-        after += b
-        after -= bs
-        return np.maximum(after, np.multiply(b, _FLOOR, out=bs), out=after)
-
-
-class InverseDiagonal(FixedDiagonal):
-    """B~^-1 is the diagonal of the last inverse (Algorithm 1 and Eq. 11 of [1])."""
-
-    __slots__ = ()
-
-    def solve(self, v: FloatArray) -> FloatArray:
-        """Replace v by diag(H) v, in place."""
-        v *= self.diagonal
-        return v
-
-    def diagonal_after(self, pair: Pair) -> FloatArray:
-        """Return d (1 - s y / rho)^2 + s^2 (sum over j != i of d_j y_j^2) / rho^2 + s^2 / rho."""
-        d, s, y, rho = self.diagonal, pair.s, pair.y, pair.rho
-        after = y * y
-        after *= d
-        np.subtract(after.sum(), after, out=after)
-        np.maximum(after, 0.0, out=after)  # round-off, where one entry is all of the sum
-        after /= rho
-        after += 1.0
-        after *= s
-        after *= s
-        after /= rho
-        kept = s * y
-        kept /= -rho
-        kept += 1.0
-        kept *= kept
-        kept *= d
-        after += kept
-        return after
-
-
-@dataclass(frozen=True, slots=True)
-class DenseInverse:
-    """The full inverse matrix (Eq. 7 and 8 of [1]; Eq. 6.17 of [2])."""
-
-    matrix: FloatArray
-
-    def direction(self, gradient: FloatArray) -> FloatArray:
-        """Return -H g."""
-        return -_product(self.matrix, gradient)
-
-    def updated(self, pair: Pair) -> DenseInverse:
-        """H + (s w' + w s') / rho with w = (1 + y'Hy / rho) s / 2 - Hy."""
-        s, y, rho = pair.s, pair.y, pair.rho
-        hy = _product(self.matrix, y)
-        w = s * (0.5 * (1.0 + dot(y, hy) / rho))
-        w -= hy
-        w /= rho
-        rank_one = np.outer(s, w)
-        matrix = self.matrix + rank_one
-        matrix += rank_one.T
-        return DenseInverse(matrix)
-
-
-@dataclass(frozen=True, slots=True)
-class LimitedMemory:
-    """The last few updates of the inverse start (s'y / y'D0^-1 y) D0^-1 (Eq. 7.20 of [2])."""
-
-    start: FloatArray
-    capacity: int
-    scale: float = 1.0
-    pairs: tuple[Pair, ...] = ()
-
-    def direction(self, gradient: FloatArray) -> FloatArray:
-        """Algorithm 7.4 of [2], the two loops."""
-        q = gradient.copy()
-        scratch = np.empty_like(q)
-        coefficients = []
-        for pair in reversed(self.pairs):
-            a = dot(pair.s, q) / pair.rho
-            q -= np.multiply(pair.y, a, out=scratch)
-            coefficients.append(a)
-        q /= self.start
-        q *= -self.scale  # now q is minus the r of [2]: the direction
-        for pair, a in zip(self.pairs, reversed(coefficients), strict=True):
-            q -= np.multiply(pair.s, a + dot(pair.y, q) / pair.rho, out=scratch)
-        return q
-
-    def updated(self, pair: Pair) -> LimitedMemory:
-        """Add a pair and forget the oldest one beyond the capacity."""
-        scale = pair.rho / dot(pair.y, pair.y / self.start)
-        return replace(self, scale=scale, pairs=(*self.pairs, pair)[-self.capacity :])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -245,6 +89,8 @@ class QuasiNewton:
     start: Callable[[FloatArray], HessianModel]
     start_diagonal: StartDiagonal = "gauss-newton"
     wolfe: Wolfe = "strong"
+    c1: float = 1e-4
+    c2: float = 0.9
     patience: int = 3
 
     def init(self, problem: Problem, x: FloatArray) -> QuasiNewtonState:
@@ -309,19 +155,21 @@ class QuasiNewton:
             return None
         f, x, budget = problem.cost_and_gradient, state.x, min(evaluations, _SEARCH_EVALUATIONS)
         return wolfe_search(
-            f, x, state.cost, state.gradient, direction, wolfe=self.wolfe, max_evaluations=budget
+            f,
+            x,
+            state.cost,
+            state.gradient,
+            direction,
+            wolfe=self.wolfe,
+            c1=self.c1,
+            c2=self.c2,
+            max_evaluations=budget,
         )
 
 
 def _norm(gradient: FloatArray, scale: FloatArray) -> float:
     """sqrt(g' D0^-1 g)."""
     return math.sqrt(dot(gradient, gradient / scale))
-
-
-def _product(matrix: FloatArray, v: FloatArray) -> FloatArray:
-    """Matrix times vector without a threaded BLAS: the same bits with any number of threads."""
-    product: FloatArray = np.einsum("ij,j->i", matrix, v)
-    return product
 
 
 def _diagonal(kind: type[FixedDiagonal], secant: bool, scale: FloatArray) -> HessianModel:
@@ -358,6 +206,8 @@ def make_solver(
     *,
     start_diagonal: StartDiagonal = "gauss-newton",
     wolfe: Wolfe = "strong",
+    c1: float = 1e-4,
+    c2: float = 0.9,
     memory: int = 10,
 ) -> QuasiNewton:
     """Return a method of the family by its name.
@@ -370,6 +220,8 @@ def make_solver(
         Where the Hessian starts: at ``problem.scale(x0)``, or at the identity as published.
     wolfe : {"strong", "weak"}
         The line search's curvature condition; the published one is the weak (Eq. 6).
+    c1, c2 : float
+        Its constants, 0 < c1 < c2 < 1.
     memory : int
         Pairs that ``l-bfgs`` keeps; two vectors each.
 
@@ -397,4 +249,4 @@ def make_solver(
         msg = f"memory must be at least 1, got {memory}; 5 to 20 is usual"
         raise InvalidInputError(msg)
     start = _STARTS.get(name, partial(LimitedMemory, capacity=memory))
-    return QuasiNewton(start, start_diagonal, wolfe)
+    return QuasiNewton(start, start_diagonal, wolfe, c1, c2)

@@ -1,0 +1,189 @@
+"""The promise and the size of the fits over a corpus, with peers in the same run.
+
+    python -m benchmarks.quality              the project's own corpus
+    python -m benchmarks.quality --all        every outline of ../shared/data beside it
+    python -m benchmarks.quality --every 10   each tenth of them
+    python -m benchmarks.quality --no-peers   the promise alone
+
+Every curve is checked by the sampler of outside_metric.py, which shares nothing with the package.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import time
+import warnings
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+import shapespline as ss
+from benchmarks.outside_metric import two_sided
+from benchmarks.peers import polyline_points, splprep_points
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+ROOT = Path(__file__).parent.parent
+OWN = ROOT / "examples" / "data" / "outlines"
+LARGE = ROOT.parent / "shared" / "data"
+TOLERANCES = (0.5, 0.1, 0.02)  # per cent of the box diagonal
+LONGEST = 20_000
+# What the certified bound may miss of the sampled distance: rounding alone.
+SLACK = 1 + 1e-9
+
+
+class Outline(NamedTuple):
+    """A contour and where it is from."""
+
+    name: str
+    category: str
+    contour: ss.Contour
+
+
+class Row(NamedTuple):
+    """One outline at one tolerance."""
+
+    name: str
+    category: str
+    percent: float
+    n_data: int
+    n_points: int
+    status: str
+    relative: float  # sampled two-sided distance over the tolerance
+    broken: bool
+    seconds: float
+    splprep: float
+    splprep_seconds: float
+    polyline: float
+
+
+def own_corpus() -> Iterator[Outline]:
+    """The outlines that the project carries."""
+    for path in sorted(OWN.glob("*.csv")):
+        closed = not path.stem.endswith("_open")
+        yield Outline(path.stem, "own", ss.Contour(np.loadtxt(path, delimiter=","), closed=closed))
+
+
+def large_corpus() -> Iterator[Outline]:
+    """The ordered outlines beside the project; a clear end where they are missing."""
+    manifest = LARGE / "manifest.csv"
+    if not manifest.exists():
+        raise SystemExit(f"the large corpus is not at {LARGE}: leave out --all and --every")
+    with manifest.open() as file:
+        rows = [row for row in csv.DictReader(file) if row["file"].endswith(".csv")]
+    for row in rows:
+        if "point set" in row["kind"] or int(row["points_or_pixels_or_segments"]) > LONGEST:
+            continue
+        points = np.loadtxt(LARGE / row["category"] / row["file"], delimiter=",")
+        known = {"closed": True, "yes": True, "open": False}.get(row["closed"])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ss.DroppedPointsWarning)
+            try:
+                contour = ss.Contour(points, closed=known)
+            except ss.DegenerateContourError:
+                continue
+        yield Outline(row["file"].removesuffix(".csv"), row["category"], contour)
+
+
+def measure(outline: Outline, percent: float, *, peers: bool, **options: object) -> Row:
+    """Fit one outline at one tolerance, check it, and ask the peers."""
+    contour = outline.contour
+    tolerance = percent / 100 * contour.box_diagonal
+    began = time.perf_counter()
+    fit = ss.fit_curve(contour, tolerance=tolerance, **options)
+    seconds = time.perf_counter() - began
+    found = two_sided(fit.curve, contour.points, closed=contour.closed, step=tolerance / 10)
+    splprep = polyline = None
+    if peers:
+        asked = {"closed": contour.closed, "tolerance": tolerance}
+        splprep = splprep_points(contour.points, **asked)
+        polyline = polyline_points(contour.points, **asked)
+    return Row(
+        outline.name,
+        outline.category,
+        percent,
+        len(contour),
+        fit.n_stored_points,
+        fit.status.name,
+        found.larger / tolerance,
+        fit.kept and found.larger > tolerance * SLACK,
+        seconds,
+        splprep.n_points if splprep else float("nan"),
+        splprep.seconds if splprep else float("nan"),
+        polyline.n_points if polyline else float("nan"),
+    )
+
+
+def report(rows: list[Row]) -> None:
+    """Ratios by tolerance and category, statuses, and the ten worst against the peers."""
+    print(
+        "| tolerance | outlines | points / splprep | points / polyline | time / splprep |", end=""
+    )
+    print(" never more than either | KEPT | broken |\n|---|---|---|---|---|---|---|---|")
+    for percent in sorted({row.percent for row in rows}, reverse=True):
+        _line(f"{percent} %", [row for row in rows if row.percent == percent])
+    for category in sorted({row.category for row in rows}):
+        _line(category, [row for row in rows if row.category == category])
+    _line("all", rows)
+    print("\nstatuses:", dict(Counter(row.status for row in rows)))
+    print("\nWorst ten against the better peer:")
+    ranked = sorted(rows, key=lambda row: -row.n_points / min(row.splprep, row.polyline))
+    for row in ranked[:10]:
+        print(
+            f"  {row.category}/{row.name} at {row.percent} %: {row.n_points} points of"
+            f" {row.n_data}, splprep {row.splprep:.0f}, polyline {row.polyline:.0f}"
+        )
+    print("\nSlowest ten:")
+    for row in sorted(rows, key=lambda row: -row.seconds)[:10]:
+        print(f"  {row.category}/{row.name} at {row.percent} %: {row.seconds:.2f} s, {row.n_data}")
+
+
+def _line(label: str, rows: list[Row]) -> None:
+    def mean(ratios: list[float]) -> float:
+        known = [ratio for ratio in ratios if np.isfinite(ratio) and ratio > 0]
+        return float(np.exp(np.mean(np.log(known)))) if known else float("nan")
+
+    smaller = [row.n_points <= min(row.splprep, row.polyline) for row in rows]
+    print(
+        f"| {label} | {len(rows)} | {mean([row.n_points / row.splprep for row in rows]):.3f}"
+        f" | {mean([row.n_points / row.polyline for row in rows]):.3f}"
+        f" | {mean([row.seconds / row.splprep_seconds for row in rows]):.1f}"
+        f" | {np.mean(smaller):.1%} | {np.mean([row.status == 'KEPT' for row in rows]):.1%}"
+        f" | {sum(row.broken for row in rows)} |"
+    )
+
+
+def run(outlines: list[Outline], *, peers: bool, **options: object) -> list[Row]:
+    """Measure every outline at every tolerance."""
+    rows = []
+    for outline in outlines:
+        for percent in TOLERANCES:
+            rows.append(measure(outline, percent, peers=peers, **options))
+            if rows[-1].broken:
+                print(f"BROKEN {rows[-1]}", flush=True)
+    return rows
+
+
+def main() -> None:
+    """Read the arguments, measure, print."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--all", action="store_true", help="the large corpus")
+    parser.add_argument("--every", type=int, help="each so many-th outline of the large corpus")
+    parser.add_argument("--no-peers", action="store_true", help="the promise alone")
+    parser.add_argument("--form", default="pieces")
+    parser.add_argument("--corners", default="auto")
+    parser.add_argument("--effort", default="balanced")
+    chosen = parser.parse_args()
+    large = chosen.all or chosen.every
+    outlines = list(large_corpus() if large else own_corpus())[:: chosen.every or 1]
+    options = {"form": chosen.form, "corners": chosen.corners, "effort": chosen.effort}
+    print(f"## {len(outlines)} outlines, {options}\n")
+    report(run(outlines, peers=not chosen.no_peers, **options))
+
+
+if __name__ == "__main__":
+    main()
