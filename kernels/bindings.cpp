@@ -4,8 +4,11 @@
 // _kernels.pyi, and outputs are written in place.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include <cstdint>
 #include <optional>
@@ -13,9 +16,12 @@
 
 #include "shapespline/bezier.hpp"
 #include "shapespline/bspline.hpp"
+#include "shapespline/corner_turn.hpp"
 #include "shapespline/cpda.hpp"
 #include "shapespline/deviation.hpp"
 #include "shapespline/footpoint.hpp"
+#include "shapespline/outline_search.hpp"
+#include "shapespline/removal_search.hpp"
 #include "shapespline/residuals.hpp"
 
 namespace nb = nanobind;
@@ -32,6 +38,7 @@ using Out1 = Array<double, nb::ndim<1>>;
 using Out2 = Array<double, nb::ndim<2>>;
 using OutPoints = Array<double, nb::shape<-1, 2>>;
 using OutIndices = Array<std::int64_t, nb::ndim<1>>;
+using InIndices = Array<const std::int64_t, nb::ndim<1>>;
 
 std::span<const double> numbers(const In1 &a) { return {a.data(), a.shape(0)}; }
 std::span<const ss::Vec2> vectors(const In2 &a) {
@@ -40,6 +47,7 @@ std::span<const ss::Vec2> vectors(const In2 &a) {
 std::span<ss::Vec2> vectors(const OutPoints &a) {
     return {reinterpret_cast<ss::Vec2 *>(a.data()), a.shape(0)};
 }
+std::span<const std::int64_t> indices(const InIndices &a) { return {a.data(), a.shape(0)}; }
 ss::Knots knot_vector(const In1 &knots, int degree, bool periodic) {
     return {numbers(knots), degree, periodic};
 }
@@ -184,4 +192,72 @@ NB_MODULE(_kernels, m) {
         "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
         "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
         "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "damping"_a, "control_step"_a.noconvert(), "parameter_step"_a.noconvert());
+
+    // The structured fit.
+    m.def(
+        "corner_turns",
+        [](In2 points, In1 stations, std::int64_t first, double length, Out1 turns) {
+            nb::gil_scoped_release release;
+            ss::corner_turns({vectors(points), numbers(stations)}, first,
+                             static_cast<std::int64_t>(turns.shape(0)), length, turns.data());
+        },
+        "points"_a.noconvert(), "stations"_a.noconvert(), "first"_a, "length"_a,
+        "turns"_a.noconvert());
+
+    m.def(
+        "fit_sections",
+        [](In2 points, bool closed, InIndices corner, InIndices forced,
+           std::int64_t stride, double resolution, double tolerance, int largest_degree,
+           bool smooth, double least_corner, int passes, int widest) {
+            nb::gil_scoped_release release;
+            const ss::LaidOutOutline outline(
+                vectors(points), closed, {indices(corner), indices(forced)}, stride,
+                resolution);
+            std::vector<std::int64_t> degrees, counts;
+            std::vector<double> knots, coordinates;
+            for (const ss::Section &s : outline.search(tolerance, largest_degree, smooth,
+                                                       least_corner, passes, widest)) {
+                degrees.push_back(s.degree);
+                counts.push_back(static_cast<std::int64_t>(s.points.size()));
+                knots.insert(knots.end(), s.knots.begin(), s.knots.end());
+                for (const ss::Vec2 p : s.points) coordinates.insert(coordinates.end(), {p.x, p.y});
+            }
+            return std::make_tuple(degrees, counts, knots, coordinates);
+        },
+        "points"_a.noconvert(), "closed"_a, "corner"_a.noconvert(),
+        "forced"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a, "largest_degree"_a,
+        "smooth"_a, "least_corner"_a, "passes"_a, "widest"_a);
+    // Knot removal: a search is a few calls, each a whole stage; see removal.hpp.
+    nb::class_<ss::removal::RemovalSearch>(m, "RemovalSearch")
+        .def(
+            "__init__",
+            [](ss::removal::RemovalSearch *self, In2 data, bool closed, int degree, double tolerance,
+               bool keep_rule, bool start_from_polyline, double gap_ratio, double speed_ratio, double least_gap,
+               double largest_gap, double enough, double accept, int samples_per_span,
+               double sample_weight, double hope) {
+                nb::gil_scoped_release release;
+                const ss::removal::FitLimits fit{tolerance,     enough,    samples_per_span,
+                                        sample_weight, least_gap, largest_gap,
+                                        hope};
+                new (self) ss::removal::RemovalSearch(
+                    vectors(data), closed, degree,
+                    {tolerance, keep_rule, start_from_polyline, {gap_ratio, speed_ratio}, fit, accept});
+            },
+            "data"_a.noconvert(), "closed"_a, "degree"_a, "tolerance"_a, "keep_rule"_a,
+            "start_from_polyline"_a, "gap_ratio"_a, "speed_ratio"_a, "least_gap"_a, "largest_gap"_a, "enough"_a,
+            "accept"_a, "samples_per_span"_a, "sample_weight"_a, "hope"_a)
+        .def("remove_cheapest", &ss::removal::RemovalSearch::remove_cheapest, "rank"_a, "effort"_a,
+             "most_trials"_a, nb::call_guard<nb::gil_scoped_release>())
+        .def("remove_stubborn", &ss::removal::RemovalSearch::remove_stubborn, "effort"_a, "spreads"_a,
+             nb::call_guard<nb::gil_scoped_release>())
+        .def("curve", &ss::removal::RemovalSearch::curve)
+        .def("n_points", &ss::removal::RemovalSearch::n_points)
+        .def("counts", &ss::removal::RemovalSearch::counts);
+    m.def(
+        "count_crossings",
+        [](In2 vertices) {
+            nb::gil_scoped_release release;
+            return ss::removal::count_crossings(std::span<const ss::Vec2>(vectors(vertices)));
+        },
+        "vertices"_a.noconvert());
 }

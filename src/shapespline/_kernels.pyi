@@ -101,3 +101,57 @@ def damped_step(
     control_step: FloatArray,  # out (m, 2)
     parameter_step: FloatArray,  # out (n,)
 ) -> tuple[bool, float, float, float]: ...  # solved, cost, predicted cost, gradient norm
+def corner_turns(
+    points: FloatArray,  # (k, 2)
+    stations: FloatArray,  # (k,), increasing
+    first: int,
+    length: float,
+    turns: FloatArray,  # out (n,), n <= k - first
+) -> None: ...
+def fit_sections(
+    points: FloatArray,  # (n, 2)
+    closed: bool,
+    corner: IntArray,  # (n,), 0 or 1
+    forced: IntArray,  # (n,), 0 or 1
+    stride: int,
+    resolution: float,
+    tolerance: float,
+    largest_degree: int,  # 1 to 3
+    smooth: bool,
+    least_corner: float,
+    passes: int,
+    widest: int,
+) -> tuple[
+    list[int], list[int], list[float], list[float]
+]: ...  # of each section: degree, number of points, knots and coordinates end to end
+
+# Stages of a fit: half the power p, iterations, whether gaps are free, and the largest distance in
+# tolerances at which the next stage is still begun.
+_Effort = tuple[int, list[tuple[int, int, bool, float]]]  # free control points a side, stages
+
+class RemovalSearch:
+    def __init__(
+        self,
+        data: FloatArray,  # (n, 2)
+        closed: bool,
+        degree: int,
+        tolerance: float,
+        keep_rule: bool,
+        start_from_polyline: bool,
+        gap_ratio: float,
+        speed_ratio: float,
+        least_gap: float,
+        largest_gap: float,
+        enough: float,
+        accept: float,
+        samples_per_span: int,
+        sample_weight: float,
+        hope: float,
+    ) -> None: ...
+    def remove_cheapest(self, rank: _Effort, effort: _Effort, most_trials: int) -> int: ...
+    def remove_stubborn(self, effort: _Effort, spreads: list[int]) -> int: ...
+    def curve(self) -> tuple[list[float], list[float]]: ...  # gaps, control points x, y in turn
+    def n_points(self) -> int: ...
+    def counts(self) -> dict[str, int]: ...
+
+def count_crossings(vertices: FloatArray) -> int: ...  # (k, 2), an open polyline

@@ -28,6 +28,9 @@ struct Box {
         low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y)};
         high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y)};
     }
+    bool meets(const Box &b) const {
+        return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
+    }
     double distance_sq(Vec2 p) const {
         const double dx = std::max({low.x - p.x, 0.0, p.x - high.x});
         const double dy = std::max({low.y - p.y, 0.0, p.y - high.y});

@@ -29,6 +29,8 @@ class EnvelopeMatrix {
         return values_[offset_[row] + column - first_[row]];
     }
 
+    void clear() { std::fill(values_.begin(), values_.end(), 0.0); }
+
     // Replaces the matrix by its Cholesky factor; false if it is not positive definite.
     bool factorize() {
         for (std::size_t i = 0; i < size(); ++i) {

@@ -1,0 +1,259 @@
+// Levenberg-Marquardt on a chain: control points, nodes and knots together, parameters eliminated.
+#pragma once
+
+#include <vector>
+
+#include "shapespline/chain_model.hpp"
+#include "shapespline/envelope.hpp"
+#include "shapespline/section_normal.hpp"
+
+namespace shapespline {
+
+// Weights of the terms of the sum of squares that a chain minimises.
+struct ChainWeights {
+    std::vector<double> data, nodes;
+    double joints = 0.0;
+    double joint_scale = 0.0;  // residual of a tangent joint over the sine of its angle
+};
+
+class ChainSolver {
+  public:
+    explicit ChainSolver(ChainModel &model) : model_(model) {}
+
+    // The sum of squares at a state whose feet are known.
+    double cost(const ChainState &state, const ChainWeights &weights) const {
+        double sum = 0.0;
+        for (const Index j : model_.active())
+            sum += weights.data[j - model_.base()] * state.distances_sq[j - model_.base()];
+        for (std::size_t i = 0; i <= model_.size(); ++i)
+            if (model_.node_free(i)) sum += weights.nodes[i] * state.node_distances_sq[i];
+        for (const std::size_t i : model_.tangent_joints()) {
+            const double e = model_.joint_term(state, i, weights.joint_scale).residual;
+            sum += weights.joints * e * e;
+        }
+        return sum;
+    }
+
+    // Control points that fit the data at the parameters they have, nodes fixed or not.
+    void solve_at_fixed_parameters(ChainState &state, const ChainWeights &weights) {
+        set_unknowns(false);
+        model_.expand(state);
+        for (std::size_t s = 0; s < model_.size(); ++s) find_spans(state, s);
+        assemble(state, weights, 0.0, false);
+        if (!solve(1e-9)) return;
+        move_points(state, state);
+        model_.project(state, 6);
+    }
+
+    // Steps until the cost falls by less than the part `enough` or no damping lowers it. Needs
+    // projected feet, leaves them so.
+    double improve(ChainState &state, const ChainWeights &weights, bool free_knots, int iterations,
+                   double enough) {
+        set_unknowns(free_knots);
+        damping_ = std::max(damping_, kLeastDamping);
+        double now = cost(state, weights);
+        for (int iteration = 0; iteration < iterations && now > 0.0; ++iteration) {
+            assemble(state, weights, damping_, true);
+            double next = now;
+            bool lower = false;
+            for (int trial = 0; trial < kTrials && !lower; ++trial) {
+                if (solve(damping_)) {
+                    trial_ = state;
+                    move_points(state, trial_);
+                    if (free_knots) move_knots(state, trial_);
+                    model_.project(trial_, kNewtonSteps);
+                    next = cost(trial_, weights);
+                    lower = next < now;
+                }
+                if (!lower) damping_ = kRaise * damping_ + kLeastDamping;
+            }
+            if (!lower) {
+                model_.expand(state);
+                break;
+            }
+            std::swap(state, trial_);
+            damping_ /= kLower;
+            const double fall = (now - next) / now;
+            now = next;
+            if (fall < enough) break;
+        }
+        return now;
+    }
+
+  private:
+    static constexpr int kTrials = 6, kNewtonSteps = 2;
+    static constexpr double kLeastDamping = 1e-6, kRaise = 8.0, kLower = 6.0;
+    // No knot gap shrinks by more than this part in a step, nor below this part of the mean gap.
+    static constexpr double kLargestShrink = 0.6, kLeastGap = 0.02;
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+    // Numbers the unknowns along the chain: node, inner control points and knots, next node.
+    void set_unknowns(bool free_knots) {
+        if (!unknown_.empty() && free_knots == free_knots_) return;
+        free_knots_ = free_knots;
+        unknown_.assign(model_.size(), {});
+        std::size_t next = 0, node = model_.node_free(0) ? next : kNone;
+        if (node != kNone) next += 2;
+        std::vector<std::size_t> first_column(next, 0);
+        for (std::size_t s = 0; s < model_.size(); ++s) {
+            const SectionView section = model_.section(shape_only_, s);
+            auto &unknown = unknown_[s];
+            const std::size_t start = node != kNone ? node : next;
+            unknown.assign(2 * section.n_points, kNone);
+            if (node != kNone) {
+                unknown[0] = node;
+                unknown[1] = node + 1;
+            }
+            for (std::size_t l = 2; l + 2 < 2 * section.n_points; ++l) unknown[l] = next++;
+            for (std::size_t k = 0; free_knots && k < section.n_interior_knots(); ++k)
+                unknown.push_back(next++);
+            node = model_.node_free(s + 1) ? next : kNone;
+            if (node != kNone) {
+                unknown[2 * section.n_points - 2] = next++;
+                unknown[2 * section.n_points - 1] = next++;
+            }
+            first_column.resize(next, start);
+        }
+        for (const std::size_t i : model_.tangent_joints()) {
+            const auto at = joint_unknowns(i);
+            const std::size_t lowest = *std::min_element(at.begin(), at.end());
+            for (const std::size_t g : at)
+                if (g != kNone) first_column[g] = std::min(first_column[g], lowest);
+        }
+        empty_ = EnvelopeMatrix(std::move(first_column));
+        step_.resize(next);
+        gradient_.resize(next);
+    }
+
+    // Unknowns of the control points before, at and after a joint.
+    std::array<std::size_t, 6> joint_unknowns(std::size_t i) const {
+        std::array<std::size_t, 6> at;
+        at.fill(kNone);
+        if (i > 0) {
+            const std::size_t last = 2 * model_.section(shape_only_, i - 1).n_points - 1;
+            for (int k = 0; k < 4; ++k) at[k] = unknown_[i - 1][last - 3 + k];
+        }
+        if (i < model_.size())
+            for (int k = 0; k < 4; ++k) at[2 + k] = unknown_[i][k];
+        return at;
+    }
+
+    void find_spans(ChainState &state, std::size_t s) const {
+        const Feet feet = model_.feet(state, state.first[s]);
+        for (Index j = 0; j <= state.last[s] - state.first[s]; ++j)
+            feet.spans[j] =
+                walk_to_span(model_.spans(s), model_.n_spans(s), 0, feet.parameters[j]);
+    }
+
+    void assemble(ChainState &state, const ChainWeights &weights, double damping,
+                  bool eliminate) {
+        matrix_ = empty_;
+        std::fill(gradient_.begin(), gradient_.end(), 0.0);
+        for (std::size_t s = 0; s < model_.size(); ++s) {
+            const Index base = model_.base();
+            normal_.assemble(model_.section(state, s), model_.taylor(s), model_.spans(s),
+                             model_.data().data() + base, weights.data.data(),
+                             model_.active(state, s), base, model_.feet(state, base), damping,
+                             eliminate, free_knots_);
+            const auto &unknown = unknown_[s];
+            for (std::size_t i = 0; i < normal_.size(); ++i) {
+                if (unknown[i] == kNone) continue;
+                gradient_[unknown[i]] += normal_.gradient(i);
+                for (std::size_t j = 0; j < normal_.size(); ++j)
+                    if (unknown[j] <= unknown[i])
+                        matrix_.at(unknown[i], unknown[j]) += normal_.matrix(i, j);
+            }
+        }
+        for (std::size_t i = 0; i <= model_.size(); ++i) add_node(state, weights, i);
+        for (const std::size_t i : model_.tangent_joints()) add_joint(state, weights, i);
+        largest_ = 0.0;
+        for (std::size_t i = 0; i < gradient_.size(); ++i)
+            largest_ = std::max(largest_, matrix_.at(i, i));
+    }
+
+    void add_node(const ChainState &state, const ChainWeights &weights, std::size_t i) {
+        if (!model_.node_free(i)) return;
+        const std::size_t last = model_.size() - 1;
+        const std::size_t g =
+            i <= last ? unknown_[i][0]
+                      : unknown_[last][2 * model_.section(state, last).n_points - 2];
+        const Vec2 residual = model_.node(state, i) - state.node_feet[i];
+        matrix_.at(g, g) += weights.nodes[i];
+        matrix_.at(g + 1, g + 1) += weights.nodes[i];
+        gradient_[g] += weights.nodes[i] * residual.x;
+        gradient_[g + 1] += weights.nodes[i] * residual.y;
+    }
+
+    void add_joint(const ChainState &state, const ChainWeights &weights, std::size_t i) {
+        const JointTerm term = model_.joint_term(state, i, weights.joint_scale);
+        const auto at = joint_unknowns(i);
+        for (int a = 0; a < 6; ++a) {
+            if (at[a] == kNone) continue;
+            gradient_[at[a]] += weights.joints * term.residual * term.gradient[a];
+            for (int b = 0; b < 6; ++b)
+                if (at[b] <= at[a])
+                    matrix_.at(at[a], at[b]) +=
+                        weights.joints * term.gradient[a] * term.gradient[b];
+        }
+    }
+
+    // The damped step, -(A + damping diag A)^-1 g.
+    bool solve(double damping) {
+        factor_ = matrix_;
+        for (std::size_t i = 0; i < gradient_.size(); ++i) {
+            factor_.at(i, i) += damping * matrix_.at(i, i) + 1e-10 * largest_;
+            step_[i] = -gradient_[i];
+        }
+        if (!factor_.factorize()) return false;
+        factor_.solve(step_);
+        return true;
+    }
+
+    void move_points(const ChainState &from, ChainState &to) const {
+        for (std::size_t s = 0; s < model_.size(); ++s) {
+            const std::size_t n = model_.section(from, s).n_points;
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::size_t gx = unknown_[s][2 * i];
+                if (gx == kNone) continue;
+                const std::size_t at = model_.point_offset(s) + i;
+                to.points[at] = from.points[at] + Vec2{step_[gx], step_[unknown_[s][2 * i + 1]]};
+            }
+        }
+    }
+
+    void move_knots(const ChainState &from, ChainState &to) const {
+        for (std::size_t s = 0; s < model_.size(); ++s) {
+            const SectionView section = model_.section(from, s);
+            const std::size_t n = section.n_interior_knots(), p = section.degree;
+            const std::size_t *unknown = unknown_[s].data() + 2 * section.n_points;
+            const auto move = [&](std::size_t k) {  // of knot p + k
+                return k == 0 || k > n ? 0.0 : step_[unknown[k - 1]];
+            };
+            double scale = 1.0;
+            for (std::size_t k = 0; k <= n; ++k) {
+                const double gap = section.knots[p + k + 1] - section.knots[p + k];
+                const double shrink = move(k) - move(k + 1);
+                if (shrink * scale > kLargestShrink * gap) scale = kLargestShrink * gap / shrink;
+            }
+            double *knots = to.knots.data() + model_.knot_offset(s);
+            bool apart = true;
+            for (std::size_t k = 1; k <= n; ++k)
+                knots[p + k] = section.knots[p + k] + scale * move(k);
+            for (std::size_t k = 0; k <= n; ++k)
+                apart &= knots[p + k + 1] - knots[p + k] >= kLeastGap / (n + 1.0);
+            if (!apart) std::copy_n(section.knots, section.n_points + p + 1, knots);
+        }
+    }
+
+    ChainModel &model_;
+    ChainState shape_only_ = model_.initial_state();
+    SectionNormal normal_;
+    std::vector<std::vector<std::size_t>> unknown_;
+    EnvelopeMatrix empty_{std::vector<std::size_t>{}}, matrix_ = empty_, factor_ = empty_;
+    std::vector<double> gradient_, step_;
+    ChainState trial_;
+    double damping_ = 1e-3, largest_ = 0.0;
+    bool free_knots_ = false;
+};
+
+}  // namespace shapespline

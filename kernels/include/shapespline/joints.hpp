@@ -1,0 +1,159 @@
+// Smooth joints: curves that meet smoothly become one spline, lines and curves meet tangentially.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "shapespline/reduction.hpp"
+
+namespace shapespline {
+
+class JointSmoother {
+  public:
+    JointSmoother(std::span<const Vec2> data, SectionRing &ring, double tolerance,
+                  int largest_degree)
+        : data_(data), ring_(ring), tolerance_(tolerance), largest_degree_(largest_degree) {}
+
+    void run() {
+        while (merge_one()) {
+        }
+        if (ring_.closed()) start_at_corner();
+        for (long i = 0; i < ring_.size(); ++i) mark(i);
+        for (long i = 0; i < ring_.size();) i = align_chain(i);
+        if (ring_.closed() && ring_.size() > 1) align_seam();
+    }
+
+  private:
+    static constexpr int kRounds = 20, kAlignRounds = 40, kStartRounds = 12;
+    // A joint that turns more than this, in radians, is not worth the attempt.
+    static constexpr double kSteepest = 0.785;
+    // In longer chains the sections are not raised one by one.
+    static constexpr long kLongChain = 12;
+
+    // A curve-curve joint that is no corner costs fewer points inside one spline: C1 saves one,
+    // C2 two. The splines that fail are not tried again.
+    bool merge_one() {
+        for (long i = 0; i < (ring_.closed() ? ring_.size() : ring_.size() - 1); ++i) {
+            const Section &a = ring_.at(i), &b = ring_.at(i + 1);
+            if (ring_.size() <= 2 || !a.curved() || !b.curved() || b.corner) continue;
+            if (failed_.contains(ring_.origin(b))) continue;
+            if (!merge(i)) failed_.insert(ring_.origin(b));
+            return true;
+        }
+        return false;
+    }
+
+    bool merge(long i) {
+        const int both = ring_.at(i).cost() + ring_.at(i + 1).cost();
+        for (int cost = std::max(both - 2, 3); cost <= both + 2; ++cost) {
+            const long i0 = ring_.has(i - 1) && ring_.size() > 3 ? i - 1 : i;
+            const long i1 = ring_.has(i + 2) && ring_.size() > 3 ? i + 2 : i + 1;
+            std::vector<Section> window = ring_.window(i0, i1);
+            const auto at = window.begin() + (i - i0);
+            const MinimaxResult merged = merged_section(data_, *at, *(at + 1), cost,
+                                                        {tolerance_, kStartRounds},
+                                                        largest_degree_);
+            if (merged.distance > kWorthFreeing * tolerance_) continue;
+            *at = merged.sections.front();
+            window.erase(at + 1);
+            if (accept(i0, i1, window, kRounds)) return true;
+        }
+        return false;
+    }
+
+    void start_at_corner() {
+        for (long i = 0; i < ring_.size(); ++i)
+            if (ring_.at(i).corner) return ring_.rotate(i);
+    }
+
+    void mark(long i) { ring_.at(i).tangent = i > 0 && smooth_at(i); }
+
+    bool smooth_at(long i) const {
+        const Section &s = ring_.at(i);
+        return !s.corner && (s.curved() || ring_.at(i - 1).curved()) &&
+               std::fabs(ring_.turn(i)) < kSteepest;
+    }
+
+    // Fits the chain of tangent joints from section i; returns the section to go on with. Where the
+    // tolerance forbids it, one curve after another gets a point more, then all of them; then the
+    // chain is broken at the joint that turns most, which is a corner after all (in a long chain at
+    // all that turn half as much).
+    long align_chain(long i) {
+        long last = i;
+        while (last + 1 < ring_.size() && ring_.at(last + 1).tangent) ++last;
+        if (last == i) return last + 1;
+        if (align(i, last)) return last + 1;
+        long steepest = i + 1;
+        for (long k = i + 2; k <= last; ++k)
+            if (std::fabs(ring_.turn(k)) > std::fabs(ring_.turn(steepest))) steepest = k;
+        const double least = last - i >= kLongChain ? 0.5 * std::fabs(ring_.turn(steepest)) : 4.0;
+        for (long k = i + 1; k <= last; ++k)
+            if (k == steepest || std::fabs(ring_.turn(k)) >= least) ring_.at(k).tangent = false;
+        return i;
+    }
+
+    // The joint where the sections of an outline without corners begin and end: turned inside the
+    // row, then fitted with its neighbours.
+    void align_seam() {
+        if (!smooth_at(0)) return;
+        const long seam = ring_.size() - ring_.size() / 2;
+        ring_.rotate(ring_.size() / 2);
+        ring_.at(seam).tangent = true;
+        if (!align(std::max(seam - 2, 0L), std::min(seam + 1, ring_.size() - 1)))
+            ring_.at(seam).tangent = false;
+    }
+
+    // Fits sections first .. last with their tangent joints, some of them raised if need be.
+    bool align(long first, long last) {
+        for (const std::vector<int> &raise : raises(first, last)) {
+            std::vector<Section> window = ring_.window(first, last);
+            for (std::size_t k = 0; k < window.size(); ++k)
+                if (raise[k] > 0) window[k] = raised(window[k], raise[k]);
+            if (accept(first, last, window, kAlignRounds)) return true;
+        }
+        return false;
+    }
+
+    // Points to add to each section of a chain, cheapest first.
+    std::vector<std::vector<int>> raises(long first, long last) const {
+        const std::vector<int> none(last - first + 1, 0);
+        std::vector<int> all = none;
+        std::vector<std::vector<int>> result{none};
+        for (long k = first; k <= last; ++k) {
+            if (!ring_.at(k).curved()) continue;
+            all[k - first] = 1;
+            if (last - first >= kLongChain) continue;
+            result.push_back(none);
+            result.back()[k - first] = 1;
+        }
+        result.push_back(all);
+        for (int &a : all) a *= 2;
+        result.push_back(all);
+        return result;
+    }
+
+    Section raised(const Section &s, int by) const {
+        const Section start = blank_section(data_, s.first, s.last, s.points.front(),
+                                            s.points.back(), s.cost() + by, largest_degree_);
+        Section result = fit_section(data_, start, {tolerance_, kStartRounds}).sections.front();
+        result.corner = s.corner;
+        result.tangent = s.tangent;
+        return result;
+    }
+
+    bool accept(long i0, long i1, const std::vector<Section> &window, int rounds) {
+        const MinimaxResult result = MinimaxFit(data_, window, ring_.begin_of(i0),
+                                                ring_.end_before(i1 + 1), {tolerance_, rounds})
+                                         .run();
+        if (result.kept) ring_.replace(i0, i1, result.sections);
+        return result.kept;
+    }
+
+    std::span<const Vec2> data_;
+    SectionRing &ring_;
+    double tolerance_;
+    int largest_degree_;
+    std::set<Index> failed_;
+};
+
+}  // namespace shapespline

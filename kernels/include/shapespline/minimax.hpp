@@ -1,0 +1,213 @@
+// The smallest largest distance that a chain of sections can have (Lawson 1961).
+//
+// Weighted least squares with weights multiplied by the distances of the last round tends to the
+// minimax fit, and its weighted RMS bounds the minimax distance from below: a chain that cannot
+// keep the tolerance says so after a few rounds.
+#pragma once
+
+#include <limits>
+
+#include "shapespline/chain_solver.hpp"
+
+namespace shapespline {
+
+struct MinimaxLimits {
+    double tolerance;
+    int rounds;
+    double largest_turn = 1.0;  // degrees, at tangent joints
+};
+
+struct MinimaxResult {
+    bool kept = false;        // both distances are within the tolerance, tangent joints are
+    double distance = 0.0;    // from the data and the free nodes
+    std::vector<Section> sections;
+};
+
+// A section this many tolerances away between fixed nodes is hopeless with free ones (measured).
+inline constexpr double kWorthFreeing = 6.0;
+
+class MinimaxFit {
+  public:
+    MinimaxFit(std::span<const Vec2> data, const std::vector<Section> &sections,
+               const ChainEnd &begin, const ChainEnd &end, const MinimaxLimits &limits)
+        : model_(data, sections, begin, end, limits.tolerance),
+          solver_(model_),
+          limits_(limits),
+          check_(data, limits.tolerance),
+          state_(model_.initial_state()) {
+        for (const Section &s : sections) has_knots_ |= s.points.size() > s.degree + 1u;
+        const std::size_t n = state_.parameters.size();
+        weights_.data.assign(n, 1.0);
+        weights_.nodes.assign(sections.size() + 1, kNodeWeight);
+        weights_.joints = kJointWeight * static_cast<double>(model_.active().size());
+        weights_.joint_scale = limits.tolerance / kJointAngle;
+    }
+
+    // For a section whose control points and knots mean nothing yet.
+    void start_from_parameters() {
+        solver_.solve_at_fixed_parameters(state_, weights_);
+        solver_.improve(state_, weights_, false, 4, 3e-2);
+        started_ = true;
+    }
+
+    MinimaxResult run() {
+        model_.project(state_, 3);
+        int stalls = 0;
+        for (int round = 0; round < limits_.rounds; ++round) {
+            // A start that is good enough, or far too bad, needs no more.
+            if (round > 0 || !started_)
+                solver_.improve(state_, weights_, has_knots_, round < 2 ? 6 : 4, 2e-2);
+            if (model_.size() > 1) model_.reassign(state_);
+            double measure = measured();
+            if (model_.thinned() && measure <= limits_.tolerance) {
+                use_all_data();
+                measure = measured();
+            }
+            stalls = measure < 0.995 * best_ ? 0 : stalls + 1;
+            if (measure < best_) keep_if_better(measure);
+            const double distance = largest_distance();
+            if (kept_ || hopeless(round) || stalls >= kMostStalls || !(distance > 1e-12)) break;
+            if (round > 0 || !started_) reweight(distance);
+        }
+        if (model_.thinned()) model_.activate_all(best_state_);
+        return {kept_, best_, model_.sections(best_state_)};
+    }
+
+  private:
+    // The largest distance; a joint that turns too far counts as one just beyond the tolerance.
+    double measured() const {
+        const double distance = largest_distance(), excess = largest_turn() - limits_.largest_turn;
+        if (!(excess > 0.0)) return distance;
+        return std::max(distance, 1.001 * limits_.tolerance) * (1.0 + 0.02 * excess);
+    }
+
+    // What the active data allow is tried on all: each weighs as the active one before it.
+    void use_all_data() {
+        const std::vector<Index> active(model_.active().begin(), model_.active().end());
+        for (std::size_t k = 0; k < active.size(); ++k) {
+            const Index end = k + 1 < active.size() ? active[k + 1] - model_.base()
+                                                    : static_cast<Index>(weights_.data.size());
+            for (Index j = active[k] - model_.base() + 1; j < end; ++j)
+                weights_.data[j] = weights_.data[j - 1];
+        }
+        weights_.joints *= static_cast<double>(weights_.data.size()) / active.size();
+        model_.activate_all(state_);
+        model_.project(state_, 3);
+        best_ = std::numeric_limits<double>::infinity();
+    }
+
+    static constexpr double kNodeWeight = 0.1, kLeastDataWeight = 1e-4, kLeastNodeWeight = 1e-2;
+    static constexpr double kJointWeight = 0.2, kJointGrowth = 1.3, kJointAngle = 2.0 / 57.3;
+    static constexpr int kMostStalls = 5;
+    // The squared bound of a start that has not converged may be too large by this factor.
+    static constexpr double kStartSlack = 9.0;
+    static constexpr double kSlack = 20.0;
+
+    double largest_distance() const {
+        double worst = 0.0;
+        for (const Index j : model_.active())
+            worst = std::max(worst, state_.distances_sq[j - model_.base()]);
+        for (std::size_t i = 0; i <= model_.size(); ++i)
+            if (model_.node_free(i)) worst = std::max(worst, state_.node_distances_sq[i]);
+        return std::sqrt(worst);
+    }
+
+    // Degrees, by the sine; 90 for a joint that turns back.
+    double largest_turn() const {
+        double worst = 0.0;
+        for (const std::size_t i : model_.tangent_joints())
+            worst = std::max(worst, std::fabs(model_.joint_term(state_, i, 1.0).residual));
+        return std::asin(std::min(worst, 1.0)) * 57.29577951308232;
+    }
+
+    void keep_if_better(double measure) {
+        bool within = false;
+        if (measure <= limits_.tolerance) {
+            within = model_.reverse_distance(state_, check_) <= limits_.tolerance;
+            if (!within && best_ <= limits_.tolerance) return;
+        }
+        best_ = measure;
+        kept_ = within;
+        best_state_ = state_;
+    }
+
+    // Whether the lower bound forbids the tolerance, or the best so far is too far from it: rounds
+    // that help at all bring it near at a rate of this kind (measured).
+    bool hopeless(int round) const {
+        double sum = 0.0, total = 0.0;
+        for (const Index j : model_.active()) {
+            sum += weights_.data[j - model_.base()] * state_.distances_sq[j - model_.base()];
+            total += weights_.data[j - model_.base()];
+        }
+        for (std::size_t i = 0; i <= model_.size(); ++i) {
+            if (!model_.node_free(i)) continue;
+            sum += weights_.nodes[i] * state_.node_distances_sq[i];
+            total += weights_.nodes[i];
+        }
+        const double tolerance = limits_.tolerance;
+        const double slack = round == 0 && started_ ? kStartSlack : 1.0;
+        return sum > slack * tolerance * tolerance * total ||
+               best_ > tolerance * (1.0 + kSlack / ((round + 1) * (round + 1)));
+    }
+
+    void reweight(double distance) {
+        double total = 0.0;
+        for (const Index at : model_.active()) {
+            const Index j = at - model_.base();
+            total += weights_.data[j] *= std::sqrt(state_.distances_sq[j]) / distance + 1e-3;
+        }
+        for (std::size_t i = 0; i <= model_.size(); ++i)
+            total += weights_.nodes[i] *= std::sqrt(state_.node_distances_sq[i]) / distance + 1e-3;
+        const double scale = static_cast<double>(model_.active().size()) / total;
+        for (const Index at : model_.active()) {
+            double &w = weights_.data[at - model_.base()];
+            w = std::max(w * scale, kLeastDataWeight);
+        }
+        for (double &w : weights_.nodes) w = std::max(w * scale, kLeastNodeWeight);
+        weights_.joints *= kJointGrowth;
+    }
+
+    ChainModel model_;
+    ChainSolver solver_;
+    MinimaxLimits limits_;
+    ReverseCheck check_;
+    ChainState state_, best_state_ = state_;
+    ChainWeights weights_;
+    bool has_knots_ = false, kept_ = false, started_ = false;
+    double best_ = std::numeric_limits<double>::infinity();
+};
+
+// A new section of a cost over data between two nodes: chord length parameters, equal knots.
+inline Section blank_section(std::span<const Vec2> data, Index first, Index last, Vec2 begin,
+                             Vec2 end, int cost, int largest_degree) {
+    if (cost == 1) return line_section(begin, end, first, last, data);
+    Section s;
+    s.degree = std::min(cost, largest_degree);
+    const int n = cost + 1, spans = n - s.degree;
+    s.knots.assign(n + s.degree + 1, 0.0);
+    for (int k = 0; k <= s.degree + spans; ++k)
+        s.knots[s.degree + k] = std::min(1.0, static_cast<double>(k) / spans);
+    s.points.resize(n);
+    for (int i = 0; i < n; ++i)
+        s.points[i] = begin + (static_cast<double>(i) / (n - 1)) * (end - begin);
+    s.points.back() = end;
+    s.first = first;
+    s.last = last;
+    s.parameters.assign(s.count(), 0.0);
+    for (Index j = 1; j < s.count(); ++j)
+        s.parameters[j] = s.parameters[j - 1] + norm(data[first + j] - data[first + j - 1]);
+    const double length = s.parameters.back();
+    for (double &u : s.parameters) u = length > 0.0 ? u / length : 0.0;
+    return s;
+}
+
+// The same, fitted between its nodes.
+inline MinimaxResult fit_section(std::span<const Vec2> data, const Section &start,
+                                 const MinimaxLimits &limits) {
+    const std::vector<Section> one{start};
+    MinimaxFit fit(data, one, {true}, {true}, limits);
+    fit.start_from_parameters();
+    return fit.run();
+}
+
+}  // namespace shapespline

@@ -1,0 +1,223 @@
+// The whole structured fit of an outline: reach, path, smooth joints, reduction, in one run.
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "shapespline/joints.hpp"
+#include "shapespline/partition.hpp"
+
+namespace shapespline {
+
+struct OutlineSearch {
+    std::span<const Vec2> data;  // an open outline, or three laps of a closed one and its first
+    Index period;                // data of one lap, 0 if open
+    Candidates candidates;
+    std::vector<NodeKind> nodes;  // of each candidate
+    double tolerance;
+    int largest_degree;
+    bool smooth;  // joints that are no corners are tangent
+    double least_corner;  // radians: a corner that the fit turns less is given up
+    ReductionLimits reduction;
+
+    std::vector<Section> run() const {
+        SectionRing ring(sections_of_best_path(), period);
+        JointSmoother smoother(data, ring, tolerance, largest_degree);
+        Reduction reducer(data, ring, reduction);
+        if (smooth) smoother.run();
+        reducer.run();
+        for (int round = 0; round < 2 && release_corners(ring); ++round) reducer.run();
+        if (smooth) smoother.run();
+        return ring.sections();
+    }
+
+  private:
+    static constexpr int kPathTrials = 200, kPathRounds = 30, kMostStarts = 16;
+
+    std::vector<Section> sections_of_best_path() const {
+        std::vector<Reach> reaches = all_reaches();
+        std::map<std::array<std::size_t, 3>, MinimaxResult> fits;
+        std::vector<Section> sections;
+        for (int trial = 0; trial < kPathTrials; ++trial) {
+            bool all_kept = true;
+            sections.clear();
+            for (const PathStep &step : best_path(reaches).steps) {
+                const auto [at, fresh] = fits.try_emplace({step.from, step.to, step.reach});
+                if (fresh) at->second = fit(reaches[step.reach].cost, step);
+                if (!at->second.kept) {
+                    shorten(reaches[step.reach], step);
+                    all_kept = false;
+                }
+                sections.push_back(at->second.sections.front());
+                sections.back().corner = nodes[step.from].corner;
+            }
+            if (all_kept) break;
+        }
+        make_disjoint(sections);
+        return sections;
+    }
+
+    std::vector<Reach> all_reaches() const {
+        const std::size_t n = candidates.at.size();
+        std::vector<std::size_t> barrier(n, n - 1);
+        for (std::size_t k = n - 1; k-- > 0;)
+            barrier[k] = nodes[k + 1].corner ? k + 1 : barrier[k + 1];
+        const ReachSearch search(data, candidates, tolerance, largest_degree);
+        std::vector<Reach> reaches;
+        for (int cost = 1; cost <= largest_degree; ++cost)
+            reaches.push_back(search.run(cost, barrier));
+        for (Reach &reach : reaches)
+            for (std::size_t k = 0; k + 1 < n; ++k)
+                reach.last[k] = std::min(reach.last[k], barrier[k]);
+        return reaches;
+    }
+
+    // Reach is nearly monotone only: what the path takes from it is fitted to see.
+    MinimaxResult fit(int cost, const PathStep &step) const {
+        const Index first = candidates.at[step.from], last = candidates.at[step.to];
+        const Section start = blank_section(data, first, last, data[first], data[last], cost,
+                                            largest_degree);
+        if (cost > 1) return fit_section(data, start, {tolerance, kPathRounds});
+        const ReachSearch search(data, candidates, tolerance, largest_degree);
+        return {search.fits(1, first, last), 0.0, {start}};
+    }
+
+    Path best_path(const std::vector<Reach> &reaches) const {
+        const JointCosts costs = smooth ? JointCosts{0.02, 1.0, 1.5} : JointCosts{};
+        const PathSearch search(reaches, nodes, costs);
+        if (!candidates.closed) return search.run(0, candidates.at.size() - 1);
+        Path best;
+        for (const std::size_t start : starts(reaches)) {
+            Path path = search.run(start, start + candidates.n_starts);
+            if (path.cost < best.cost - 1e-9) best = std::move(path);
+        }
+        return best;
+    }
+
+    // A corner is a node of every path. Without corners some node lies in any window that one
+    // section can span: the shortest such window is tried, at some places.
+    std::vector<std::size_t> starts(const std::vector<Reach> &reaches) const {
+        for (std::size_t k = 0; k < candidates.n_starts; ++k)
+            if (nodes[k].corner) return {k};
+        const auto span = [&](std::size_t k) {
+            std::size_t furthest = 0;
+            for (const Reach &reach : reaches) furthest = std::max(furthest, reach.last[k] - k);
+            return furthest;
+        };
+        std::size_t shortest = 0;
+        for (std::size_t k = 1; k < candidates.n_starts; ++k)
+            if (span(k) < span(shortest)) shortest = k;
+        std::vector<std::size_t> result;
+        const std::size_t width = span(shortest);
+        for (std::size_t w = 0; w <= width; w += std::max<std::size_t>(1, width / kMostStarts))
+            result.push_back((shortest + w) % candidates.n_starts);
+        return result;
+    }
+
+    // A section of the path that cannot be fitted after all reaches one candidate less far; and
+    // what starts before it, no farther.
+    void shorten(Reach &reach, const PathStep &step) const {
+        const std::size_t lap = candidates.closed ? candidates.n_starts : 0;
+        const std::size_t n = candidates.at.size();
+        const auto cut = [&](std::size_t from, std::size_t last) {
+            for (std::size_t k = from + 1; k-- > 0 && reach.last[k] > last;) reach.last[k] = last;
+        };
+        const std::size_t from = lap > 0 ? step.from % lap : step.from;
+        const std::size_t last = step.to - 1 - (step.from - from);
+        cut(from, last);
+        if (lap > 0 && from + lap < n) cut(from + lap, std::min(n - 1, last + lap));
+    }
+
+    // Sections of a path share the datum at their node; it goes to the later one.
+    void make_disjoint(std::vector<Section> &sections) const {
+        for (std::size_t i = 0; i < sections.size(); ++i) {
+            if (!candidates.closed && i + 1 == sections.size()) break;
+            --sections[i].last;
+            sections[i].parameters.pop_back();
+        }
+    }
+
+    // Corners of the data that the fit hardly turns at: the tolerance allows to round them.
+    bool release_corners(SectionRing &ring) const {
+        bool any = false;
+        for (long i = 0; i < ring.size(); ++i) {
+            if (!ring.has(i - 1) || !ring.at(i).corner) continue;
+            if (std::fabs(ring.turn(i)) >= least_corner) continue;
+            ring.at(i).corner = ring.at(i).tangent = false;
+            any = true;
+        }
+        return any;
+    }
+};
+
+// An outline as the search wants it: closed data in three laps, candidates in two.
+class LaidOutOutline {
+  public:
+    // What is known about each point: 1 for a corner that is kept, for a point that must be a
+    // candidate node.
+    struct Marks {
+        std::span<const Index> corner, forced;
+    };
+
+    // Candidates are every `stride`-th point and the forced ones, and more wherever the polyline
+    // through them would leave the data by more than `resolution`.
+    LaidOutOutline(std::span<const Vec2> points, bool closed, const Marks &marks, Index stride,
+                   double resolution)
+        : n_(static_cast<Index>(points.size())), closed_(closed) {
+        for (int lap = 0; lap < (closed ? 3 : 1); ++lap)
+            data_.insert(data_.end(), points.begin(), points.end());
+        if (closed) data_.push_back(points[0]);
+        const std::vector<Index> once = choose(marks.forced, stride, resolution);
+        candidates_ = {{}, closed ? once.size() : once.size() - 1, closed};
+        const auto add = [&](Index at) {
+            candidates_.at.push_back(at);
+            nodes_.push_back({marks.corner[at % n_] != 0});
+        };
+        for (int lap = 0; lap < (closed ? 2 : 1); ++lap)
+            for (const Index k : once) add(k + (closed ? (lap + 1) * n_ : 0));
+        if (closed) add(once[0] + 3 * n_);
+    }
+
+    std::vector<Section> search(double tolerance, int largest_degree, bool smooth,
+                                double least_corner, int passes, int widest) const {
+        return OutlineSearch{data_,     closed_ ? n_ : 0, candidates_, nodes_,
+                             tolerance, largest_degree,   smooth,      least_corner,
+                             {tolerance, largest_degree, smooth, passes, widest}}
+            .run();
+    }
+
+  private:
+    std::vector<Index> choose(std::span<const Index> forced, Index stride,
+                              double resolution) const {
+        std::vector<Index> chosen;
+        const auto append = [&](Index at) {
+            if (!chosen.empty()) split(chosen.back(), at, resolution * resolution, chosen);
+            chosen.push_back(at);
+        };
+        for (Index i = 0; i < n_; ++i)
+            if (i % stride == 0 || forced[i] != 0 || (!closed_ && i == n_ - 1)) append(i);
+        if (closed_) split(chosen.back(), n_, resolution * resolution, chosen);
+        return chosen;
+    }
+
+    // Appends points between two candidates, halving where the chord is too far from the data.
+    void split(Index a, Index b, double limit_sq, std::vector<Index> &chosen) const {
+        bool within = true;
+        for (Index j = a + 1; j < b && within; ++j)
+            within = segment_distance_sq(data_[j], data_[a], data_[b]) <= limit_sq;
+        if (within) return;
+        const Index middle = (a + b) / 2;
+        split(a, middle, limit_sq, chosen);
+        chosen.push_back(middle);
+        split(middle, b, limit_sq, chosen);
+    }
+
+    std::vector<Vec2> data_;
+    Index n_;
+    bool closed_;
+    Candidates candidates_;
+    std::vector<NodeKind> nodes_;
+};
+
+}  // namespace shapespline

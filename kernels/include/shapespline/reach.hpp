@@ -1,0 +1,94 @@
+// How far a section of each cost reaches from each candidate node.
+#pragma once
+
+#include <vector>
+
+#include "shapespline/minimax.hpp"
+
+namespace shapespline {
+
+// Candidate nodes are data indices, increasing. On a closed outline they run over two laps and the
+// first n_starts of them are starts; the second lap repeats the first.
+struct Candidates {
+    std::vector<Index> at;
+    std::size_t n_starts;
+    bool closed;
+};
+
+// A class of sections and the candidates it reaches: reach[k] is the last one from candidate k.
+struct Reach {
+    int cost;
+    std::vector<std::size_t> last;
+};
+
+class ReachSearch {
+  public:
+    ReachSearch(std::span<const Vec2> data, const Candidates &candidates, double tolerance,
+                int largest_degree)
+        : data_(data),
+          candidates_(candidates),
+          limits_{tolerance, kRounds},
+          largest_degree_(largest_degree) {}
+
+    // Feasibility is nearly monotone: what starts later reaches at least as far. So the search
+    // starts at the last answer, gallops and bisects: about 1.5 fits a candidate.
+    Reach run(int cost, const std::vector<std::size_t> &barrier) const {
+        const std::size_t n = candidates_.at.size(), n_starts = candidates_.n_starts;
+        Reach reach{cost, std::vector<std::size_t>(n, n - 1)};
+        std::size_t last = 1;
+        for (std::size_t k = 0; k < n_starts; ++k) {
+            last = std::max(last, k + 1);
+            // A section of a whole lap would begin and end in one node, a line even without length.
+            const std::size_t lap = candidates_.closed ? n_starts - 1 : n_starts;
+            const std::size_t top = std::min({n - 1, k + lap, barrier[k]});
+            std::size_t good = std::min(last, top), bad = top + 1;
+            for (std::size_t step = 1; good < top; step *= 2) {
+                const std::size_t next = std::min(good + step, top);
+                if (!fits(cost, candidates_.at[k], candidates_.at[next])) {
+                    bad = next;
+                    break;
+                }
+                good = next;
+            }
+            while (bad - good > 1) {
+                const std::size_t middle = (good + bad) / 2;
+                (fits(cost, candidates_.at[k], candidates_.at[middle]) ? good : bad) = middle;
+            }
+            reach.last[k] = last = good;
+        }
+        if (candidates_.closed)
+            for (std::size_t k = n_starts; k < n; ++k)
+                reach.last[k] = std::min(n - 1, reach.last[k - n_starts] + n_starts);
+        return reach;
+    }
+
+    bool fits(int cost, Index first, Index last) const {
+        if (last - first <= 1) return true;
+        const Vec2 begin = data_[first], end = data_[last];
+        if (cost == 1) return line_fits(begin, end, first, last);
+        // Fewer data than unknowns: what such a fit does between them is verified later.
+        if (last - first - 1 < cost - 1) return true;
+        return fit_section(data_,
+                           blank_section(data_, first, last, begin, end, cost, largest_degree_),
+                           limits_)
+            .kept;
+    }
+
+  private:
+    static constexpr int kRounds = 12;
+
+    // The projection on a line is continuous, so the data bound the line's own distance too.
+    bool line_fits(Vec2 begin, Vec2 end, Index first, Index last) const {
+        const double limit_sq = limits_.tolerance * limits_.tolerance;
+        for (Index j = first + 1; j < last; ++j)
+            if (segment_distance_sq(data_[j], begin, end) > limit_sq) return false;
+        return true;
+    }
+
+    std::span<const Vec2> data_;
+    const Candidates &candidates_;
+    MinimaxLimits limits_;
+    int largest_degree_;
+};
+
+}  // namespace shapespline

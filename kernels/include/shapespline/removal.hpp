@@ -1,0 +1,342 @@
+// Knot removal: one knot after another, each removal refitted with everything near it free.
+//
+// Lyche and Morken (1987) rank knots by the error that their removal makes and keep the data's
+// parameters. Here control points, parameters and knot gaps of a window are free in each removal,
+// in a rising p-norm, which needs less than half as many knots. A removal is accepted only if
+// both distances are proven to keep the tolerance and the product rule holds.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <queue>
+#include <span>
+#include <vector>
+
+#include "shapespline/product_rule.hpp"
+#include "shapespline/search_polyline.hpp"
+#include "shapespline/spline_start.hpp"
+
+namespace shapespline::removal {
+
+struct Effort {
+    int n_side;  // free control points on each side
+    std::vector<FitStage> stages;
+};
+
+struct RemovalSettings {
+    double tolerance;
+    bool keep_rule;
+    bool start_from_polyline;
+    ProductRule rule;
+    FitLimits fit;
+    double accept;  // part of the tolerance that an accepted curve keeps
+};
+
+struct RemovalCounts {
+    long ranks = 0, trials = 0, accepted = 0, refits = 0, iterations = 0;
+    long missed_bound = 0, missed_gaps = 0, missed_speed = 0, missed_crossings = 0;
+};
+
+template <int Degree>
+class KnotRemoval {
+  public:
+    KnotRemoval(std::span<const Vec2> data, bool closed, const RemovalSettings &settings)
+        : settings_(settings),
+          data_(arc_polyline(data, closed)),
+          search_(search_polyline(data_, kThinning * settings.tolerance,
+                                  data_.total / kSearchPoints)) {
+        std::vector<Vec2> polyline = search_.points;
+        if (closed) polyline.push_back(polyline.front());
+        n_data_crossings_ = count_crossings(std::span<const Vec2>(polyline));
+        if (settings.start_from_polyline || !start_by_insertion())
+            state_ = polyline_spline<Degree>(search_, kPolylinePart * settings.tolerance);
+        const StateCurves<Degree> all(state_);
+        Box everywhere;
+        for (const Vec2 p : state_.points) everywhere.include(p);
+        n_crossings_ = crossings(all, everywhere);
+        median_ = median_speed(all);
+        slowest_ = slowest_speed(all, settings.rule.speed_ratio * median_) / median_;
+        gap_ratio_ = gap_ratio(all);
+    }
+
+    const SplineState<Degree> &state() const { return state_; }
+    const RemovalCounts &counts() {
+        counts_.iterations = fit_.iterations();
+        return counts_;
+    }
+
+    // Removes the cheapest knot first. A rank is renewed when the knot comes up after a neighbour
+    // went, unless its removal was feasible at that; a knot whose removal failed comes back when a neighbour has gone. Returns the number
+    // of knots that were removed; at most `most` trials are made.
+    int remove_cheapest(const Effort &rank, const Effort &effort, long most) {
+        const long before = counts_.accepted;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+        std::vector<Standing> standing(1 + *std::max_element(state_.knot_ids.begin(),
+                                                             state_.knot_ids.end()));
+        for (std::size_t r = 0; r < state_.knot_ids.size(); ++r) {
+            if (!state_.removable(static_cast<int>(r))) continue;
+            const int id = state_.knot_ids[r];
+            queue.push({cost(static_cast<int>(r), rank), id});
+            standing[id] = {true, false};
+        }
+        for (long trials = 0; !queue.empty() && trials < most;) {
+            const auto [cost_before, id] = queue.top();
+            queue.pop();
+            const int r = state_.knot_with_id(id);
+            standing[id].queued = false;
+            if (r < 0 || !state_.removable(r)) continue;
+            if (standing[id].stale && cost_before > kTryStale) {
+                queue.push({cost(r, rank), id});
+                standing[id] = {true, false};
+                continue;
+            }
+            ++trials;
+            if (!try_removal(r, effort, 0)) continue;
+            for_each_near(r, effort, [&](int near) {
+                standing[near].stale = true;
+                if (standing[near].queued) return;
+                queue.push({1.0, near});
+                standing[near].queued = true;
+            });
+        }
+        return static_cast<int>(counts_.accepted - before);
+    }
+
+    // One harder attempt at every knot: the hole that it leaves as it is, then spread over
+    // neighbouring gaps. Returns the number of knots that were removed.
+    int remove_stubborn(const Effort &effort, std::span<const int> spreads) {
+        const long before = counts_.accepted;
+        std::vector<int> ids;
+        for (std::size_t r = 0; r < state_.knot_ids.size(); ++r) ids.push_back(state_.knot_ids[r]);
+        for (const int id : ids)
+            attempt_stubborn(id, effort, spreads);
+        return static_cast<int>(counts_.accepted - before);
+    }
+
+  private:
+    // Not again where nothing near has changed since it failed.
+    void attempt_stubborn(int id, const Effort &effort, std::span<const int> spreads) {
+        if (const auto failed = failed_at_.find(id);
+            failed != failed_at_.end() && failed->second >= changed_at_[id])
+            return;
+        for (const int spread : spreads) {
+            const int r = state_.knot_with_id(id);
+            if (r < 0 || !state_.removable(r)) return;
+            if (!try_removal(r, effort, spread)) continue;
+            for_each_near(r, effort, [&](int near) { changed_at_[near] = counts_.accepted; });
+            return;
+        }
+        failed_at_[id] = counts_.accepted;
+    }
+
+    // Ids of the knots whose windows overlap with what a removal at r changed.
+    template <class Visit>
+    void for_each_near(int r, const Effort &effort, Visit &&visit) const {
+        const int reach = effort.n_side + Degree, size = static_cast<int>(state_.knot_ids.size());
+        for (int i = r - reach; i < r + reach; ++i)
+            if (state_.closed || (i >= 0 && i < size))
+                visit(state_.knot_ids[state_.gap_index(i)]);
+    }
+
+    struct Entry {
+        double cost;
+        int id;
+        bool operator>(const Entry &other) const {
+            return cost != other.cost ? cost > other.cost : id > other.id;
+        }
+    };
+    struct Standing {
+        bool queued = false, stale = false;
+    };
+    static constexpr int kRefitSamples = 24;
+    static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
+    static constexpr double kThinning = 0.025;  // of the tolerance
+    static constexpr int kSearchPoints = 450;  // at least
+    static constexpr int kMedianAge = 256;  // control points for one removal that it may be old
+    static constexpr double kTryStale = 0.97;
+    static constexpr double kFlatness = 0.01;  // of the tolerance, for crossings
+
+    // Where the first knots fall decides whether sharp corners are met; another number of them often
+    // cures what more insertions cannot.
+    bool start_by_insertion() {
+        for (const int count : {24, 37, 56})
+            if (start_by_insertion(std::max(count, 3 * Degree + 4))) return true;
+        return false;
+    }
+    bool start_by_insertion(int count) {
+        const int n = search_.size();
+        count = std::min(n, count);
+        std::vector<int> at;
+        for (int i = 0; i < count; ++i)
+            at.push_back(static_cast<int>(static_cast<long>(i) * (search_.closed ? n : n - 1) /
+                                          (search_.closed ? count : count - 1)));
+        state_ = chord_length_spline<Degree>(search_, at);
+        KnotInsertion<Degree> insertion(search_.points, settings_.fit);
+        for (double enough = settings_.fit.enough; enough > kLeastEnough; enough *= kTighter) {
+            if (!insertion.run(state_, enough, n)) return false;
+            if (is_proven(state_)) return true;
+        }
+        return false;
+    }
+
+    bool is_proven(const SplineState<Degree> &state) {
+        const int first = state.closed ? state.span[0] : Degree;
+        const int last = state.closed ? first + state.n_points() : state.n_points() - 1;
+        return proof_.within(state, search_, data_, first, last,
+                             settings_.accept * settings_.tolerance);
+    }
+
+    // Merges the spans beside knot r in a copy of the state; false where too few would be left.
+    bool make_candidate(int r, int spread) {
+        if (state_.n_points() <= (state_.closed ? Degree + 2 : Degree + 1)) return false;
+        candidate_ = state_;
+        remove_knot(candidate_, r);
+        double &hole = candidate_.gaps[candidate_.gap_index(r - 1)];
+        hole = std::min(hole, settings_.fit.largest_gap);
+        return spread == 0 || spread_hole(r - 1, spread);
+    }
+
+    // Spreads the wide gap k over up to `reach` gaps on each side, in equal parts of the sequence
+    // that the gaps had with the hole cut in two. False if there is nothing to spread over.
+    bool spread_hole(int k, int reach) {
+        SplineState<Degree> &s = candidate_;
+        const int m = s.n_points();
+        reach = s.closed ? std::min(reach, (m - 1) / 2) : reach;
+        int low = k, high = k;
+        while (k - low < reach && (s.closed || low - 1 >= Degree) && s.gap(low - 1) > 0.0) --low;
+        while (high - k < reach && (s.closed || high + 1 < m) && s.gap(high + 1) > 0.0) ++high;
+        if (low == high) return false;
+        const int count = high - low + 1;
+        std::vector<double> old{0.0}, breaks{0.0}, after{0.0};
+        for (int i = low; i <= high; ++i) {
+            breaks.push_back(breaks.back() + s.gap(i));
+            if (i == k) old.push_back(old.back() + 0.5 * s.gap(i));
+            old.push_back(breaks.back());
+        }
+        for (int i = 1; i < count; ++i) {
+            const double x = static_cast<double>(i) * (count + 1) / count;
+            const int cell = std::min(static_cast<int>(x), count);
+            after.push_back(old[cell] + (x - cell) * (old[cell + 1] - old[cell]));
+        }
+        after.push_back(old.back());
+        for (int j = s.first_data(low), end = s.first_data(high + 1); j < end; ++j) {
+            const int turn = s.closed ? floor_div(j, s.n_data()) : 0;
+            const int at = j - turn * s.n_data(), local = s.span_of(j) - low;
+            const double t = breaks[local] + 0.5 * (s.place[at] + 1.0) *
+                                                 (breaks[local + 1] - breaks[local]);
+            const auto next = std::upper_bound(after.begin(), after.end(), t);
+            const int cell = std::clamp(static_cast<int>(next - after.begin()) - 1, 0, count - 1);
+            s.span[at] = cell + low - turn * m;
+            s.place[at] = std::clamp(
+                2.0 * (t - after[cell]) / (after[cell + 1] - after[cell]) - 1.0, -1.0, 1.0);
+        }
+        for (int i = 0; i < count; ++i)
+            s.gaps[s.gap_index(low + i)] = after[i + 1] - after[i];
+        s.normalize();
+        return true;
+    }
+
+    double fit_candidate(int r, const Effort &effort, const FitLimits &limits) {
+        window_.open_around(candidate_, search_.points, central_point<Degree>(r), effort.n_side);
+        return fit_.run(window_, limits, effort.stages, true);
+    }
+
+    double cost(int r, const Effort &rank) {
+        ++counts_.ranks;
+        if (!make_candidate(r, 0)) return std::numeric_limits<double>::infinity();
+        return fit_candidate(r, rank, settings_.fit);
+    }
+
+    bool try_removal(int r, const Effort &effort, int spread) {
+        ++counts_.trials;
+        if (!make_candidate(r, spread)) return false;
+        if (fit_candidate(r, effort, settings_.fit) > settings_.fit.enough) return false;
+        if (!accept_distance()) {
+            // A tip between two samples: once more with a closer look.
+            ++counts_.refits;
+            FitLimits closer = settings_.fit;
+            closer.samples_per_span = kRefitSamples;
+            make_candidate(r, spread);
+            if (fit_candidate(r, effort, closer) > closer.enough || !accept_distance()) {
+                ++counts_.missed_bound;
+                return false;
+            }
+        }
+        if (settings_.keep_rule && !keeps_rule()) return false;
+        std::swap(state_, candidate_);
+        ++counts_.accepted;
+        return true;
+    }
+
+    // Writes the window's curve into the candidate and proves both of its distances.
+    bool accept_distance() {
+        window_.write_back(candidate_);
+        const int first = window_.origin + window_.first_sampled;
+        const int last = window_.origin + window_.last_sampled;
+        return proof_.within(candidate_, search_, data_, first, last,
+                             settings_.accept * settings_.tolerance);
+    }
+
+    // Of the candidate, the window first. What the start could not keep must not become worse.
+    bool keeps_rule() {
+        const double least = std::min(settings_.rule.speed_ratio, slowest_);
+        const int first = window_.origin + window_.first_sampled;
+        const StateCurves<Degree> part(candidate_, first, window_.origin + window_.last_sampled + 1);
+        // The median changes little in one removal; what fails clearly needs no second look.
+        if (slowest_speed(part, settings_.rule.speed_ratio * median_) < 0.8 * least * median_) {
+            ++counts_.missed_speed;
+            return false;
+        }
+        const StateCurves<Degree> all(candidate_);
+        if (gap_ratio(all) > std::max(settings_.rule.gap_ratio, gap_ratio_)) {
+            ++counts_.missed_gaps;
+            return false;
+        }
+        // Sorting speeds is the dear part: of many knots one more or less moves the median little.
+        const long every = 1 + state_.n_points() / kMedianAge;
+        if (counts_.accepted % every == 0) median_ = median_speed(all);
+        const double critical = settings_.rule.speed_ratio * median_;
+        const double slowest = slowest_speed(all, critical) / median_;
+        if (slowest < least * (1.0 - 1e-6)) {
+            ++counts_.missed_speed;
+            return false;
+        }
+        const int n_crossings = n_crossings_ + new_crossings(part, all);
+        if (n_crossings > std::max(n_data_crossings_, n_crossings_)) {
+            ++counts_.missed_crossings;
+            return false;
+        }
+        n_crossings_ = n_crossings;
+        slowest_ = slowest;
+        gap_ratio_ = gap_ratio(all);
+        return true;
+    }
+    // Crossings that the candidate has more than the state, looked for where they differ: both lie
+    // within the tolerance of the data.
+    int new_crossings(const StateCurves<Degree> &part, const StateCurves<Degree> &all) const {
+        Box box;
+        for (const auto &curve : part.curves)
+            for (const Vec2 p : curve.bezier().points) box.include(p);
+        const Vec2 margin{2.0 * settings_.tolerance, 2.0 * settings_.tolerance};
+        box.include(box.low - margin);
+        box.include(box.high + margin);
+        return crossings(all, box) - crossings(StateCurves<Degree>(state_), box);
+    }
+    int crossings(const StateCurves<Degree> &all, const Box &box) const {
+        const auto chords = flattened(all, kFlatness * settings_.tolerance, box);
+        return count_crossings(std::span<const Chord>(chords));
+    }
+
+    RemovalSettings settings_;
+    ArcPolyline data_, search_;
+    Proof<Degree> proof_;
+    SplineState<Degree> state_, candidate_;
+    int n_data_crossings_ = 0, n_crossings_ = 0;
+    double median_ = 0.0, slowest_ = 0.0, gap_ratio_ = 0.0;  // slowest in medians
+    Window<Degree> window_;
+    MinimaxFit<Degree> fit_;
+    RemovalCounts counts_;
+    std::map<int, long> failed_at_, changed_at_;  // by knot id, in removals
+};
+
+}  // namespace shapespline::removal

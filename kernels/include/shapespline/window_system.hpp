@@ -1,0 +1,239 @@
+// Normal equations of one window in control points and logarithms of knot gaps.
+//
+// Every residual is linearised in what it depends on; the data's places are eliminated (METHOD 4).
+// In a span all derivatives are polynomials in the place u, so the data enter through moments
+// sum W u^q only, which become matrix entries once per span.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "shapespline/envelope.hpp"
+#include "shapespline/span_basis.hpp"
+#include "shapespline/window.hpp"
+
+namespace shapespline::removal {
+
+// Moments of the weights W (symmetric 2x2) and of the weighted residuals of one span.
+template <int Degree>
+struct SpanMoments {
+    std::array<double, 2 * Degree + 1> xx{}, xy{}, yy{};
+    std::array<Vec2, Degree + 1> pull{};
+
+    void add(double u, double wxx, double wxy, double wyy, Vec2 weighted_residual) {
+        double power = 1.0;
+        for (int q = 0; q <= 2 * Degree; ++q) {
+            xx[q] += wxx * power;
+            xy[q] += wxy * power;
+            yy[q] += wyy * power;
+            if (q <= Degree) pull[q] += power * weighted_residual;
+            power *= u;
+        }
+    }
+};
+
+template <int Degree>
+class WindowSystem {
+  public:
+    // Numbers the unknowns along the curve; gaps only if they are free.
+    void prepare(const Window<Degree> &window, bool gaps_free) {
+        gaps_free_ = gaps_free;
+        point_unknown_.assign(window.n_free_points, -1);
+        gap_unknown_.assign(window.n_free_gaps, -1);
+        int count = 0;
+        for (int i = 0; i < window.n_points(); ++i) {
+            const int point = window.point_slot[i];
+            if (point != kNotFree && point_unknown_[point] < 0) {
+                point_unknown_[point] = count;
+                count += 2;
+            }
+            const int k = i + (Degree + 1) / 2;  // the gap in the middle of the point's support
+            if (!gaps_free || k >= static_cast<int>(window.gap_slot.size())) continue;
+            const int gap = window.gap_slot[k];
+            if (gap != kNotFree && gap_unknown_[gap] < 0) gap_unknown_[gap] = count++;
+        }
+        std::vector<std::size_t> first(count);
+        for (int i = 0; i < count; ++i) first[i] = i;
+        for (int k = window.first_sampled; k <= window.last_sampled; ++k) {
+            collect(window, k);
+            std::size_t lowest = count;
+            for (const int u : active_) lowest = std::min<std::size_t>(lowest, u);
+            for (const int u : active_) first[u] = std::min(first[u], lowest);
+        }
+        matrix_ = EnvelopeMatrix(first);
+        right_side_.assign(count, 0.0);
+    }
+
+    std::size_t size() const { return right_side_.size(); }
+    int point_unknown(int slot) const { return point_unknown_[slot]; }
+    int gap_unknown(int slot) const { return gap_unknown_[slot]; }
+
+    void clear() {
+        matrix_.clear();
+        std::fill(right_side_.begin(), right_side_.end(), 0.0);
+    }
+
+    // Adds what the data and samples of local span k weigh.
+    void add(const Window<Degree> &window, const LocalCurve &curve, int k,
+             const SpanMoments<Degree> &moments) {
+        SpanBasis<Degree> basis;
+        basis.evaluate(&curve.gaps[k]);
+        for (int l = 0; l <= Degree; ++l) {
+            const int slot = window.point_slot[k - Degree + l];
+            points_[l] = slot == kNotFree ? -1 : point_unknown_[slot];
+        }
+        weigh_points(basis, moments);
+        for (int l = 0; l <= Degree; ++l)
+            if (points_[l] >= 0) add_point_rows(basis, moments, l);
+        if (gaps_free_) add_gap_rows(window, curve, k, basis, moments);
+    }
+
+    // Solves (A + damping diag(A) + a little) x = b; false if A is not positive definite.
+    bool solve(double damping, std::vector<double> &x) {
+        double largest = 0.0;
+        for (std::size_t i = 0; i < size(); ++i) largest = std::max(largest, matrix_.at(i, i));
+        factor_ = matrix_;
+        for (std::size_t i = 0; i < size(); ++i)
+            factor_.at(i, i) += damping * matrix_.at(i, i) + 1e-9 * largest;
+        if (!factor_.factorize()) return false;
+        x = right_side_;
+        factor_.solve(x);
+        return true;
+    }
+
+  private:
+    using Polynomial = std::array<Vec2, Degree + 1>;
+    static constexpr int kGapReach = Degree - 1;  // gaps on either side that shape a span
+    // Relative step of the difference quotient in a gap; the curve is smooth in its logarithm.
+    static constexpr double kGapStep = 1e-6;
+
+    void collect(const Window<Degree> &window, int k) {
+        active_.clear();
+        for (int l = 0; l <= Degree; ++l) {
+            const int slot = window.point_slot[k - Degree + l];
+            if (slot == kNotFree) continue;
+            active_.push_back(point_unknown_[slot]);
+            active_.push_back(point_unknown_[slot] + 1);
+        }
+        if (!gaps_free_) return;
+        for (int g = k - kGapReach; g <= k + kGapReach; ++g)
+            if (window.gap_slot[g] != kNotFree && gap_unknown_[window.gap_slot[g]] >= 0)
+                active_.push_back(gap_unknown_[window.gap_slot[g]]);
+    }
+
+    void add_entry(int i, int k, double value) {
+        if (i == k)
+            matrix_.at(i, k) += 2.0 * value;  // two places of one unknown on the span
+        else
+            matrix_.at(std::max(i, k), std::min(i, k)) += value;
+    }
+
+    void weigh_points(const SpanBasis<Degree> &basis, const SpanMoments<Degree> &moments) {
+        for (int l = 0; l <= Degree; ++l)
+            for (int q = 0; q <= Degree; ++q) {
+                double xx = 0.0, xy = 0.0, yy = 0.0;
+                for (int p = 0; p <= Degree; ++p) {
+                    const double b = basis.of_point[l][p];
+                    xx += moments.xx[p + q] * b;
+                    xy += moments.xy[p + q] * b;
+                    yy += moments.yy[p + q] * b;
+                }
+                weighted_[l][q] = {xx, xy, yy};
+            }
+    }
+
+    void add_point_rows(const SpanBasis<Degree> &basis, const SpanMoments<Degree> &moments,
+                        int l) {
+        const int row = points_[l];
+        for (int q = 0; q <= Degree; ++q) {
+            right_side_[row] -= basis.of_point[l][q] * moments.pull[q].x;
+            right_side_[row + 1] -= basis.of_point[l][q] * moments.pull[q].y;
+        }
+        for (int other = 0; other <= l; ++other) {
+            const int column = points_[other];
+            if (column < 0) continue;
+            double xx = 0.0, xy = 0.0, yy = 0.0;
+            for (int q = 0; q <= Degree; ++q) {
+                const double b = basis.of_point[l][q];
+                xx += b * weighted_[other][q][0];
+                xy += b * weighted_[other][q][1];
+                yy += b * weighted_[other][q][2];
+            }
+            if (other == l) {
+                matrix_.at(row, row) += xx;
+                matrix_.at(row + 1, row) += xy;
+                matrix_.at(row + 1, row + 1) += yy;
+            } else {
+                add_entry(row, column, xx);
+                add_entry(row, column + 1, xy);
+                add_entry(row + 1, column, xy);
+                add_entry(row + 1, column + 1, yy);
+            }
+        }
+    }
+
+    void add_gap_rows(const Window<Degree> &window, const LocalCurve &curve, int k,
+                      const SpanBasis<Degree> &basis, const SpanMoments<Degree> &moments) {
+        std::array<double, 2 * kGapReach + 1> around;
+        std::copy_n(curve.gaps.begin() + (k - kGapReach), around.size(), around.begin());
+        std::array<Polynomial, 2 * kGapReach + 1> change, weighted;
+        std::array<int, 2 * kGapReach + 1> unknown;
+        int count = 0;
+        SpanBasis<Degree> moved;
+        for (int g = 0; g <= 2 * kGapReach; ++g) {
+            const int slot = window.gap_slot[k - kGapReach + g];
+            if (slot == kNotFree || gap_unknown_[slot] < 0) continue;
+            const double kept = around[g];
+            around[g] = kept * (1.0 + kGapStep);
+            moved.evaluate(&around[kGapReach]);
+            around[g] = kept;
+            Polynomial &d = change[count] = {};
+            for (int l = 0; l <= Degree; ++l)
+                for (int q = 0; q <= Degree; ++q)
+                    d[q] += ((moved.of_point[l][q] - basis.of_point[l][q]) / kGapStep) *
+                            curve.points[k - Degree + l];
+            weighted[count] = weigh(d, moments);
+            unknown[count++] = gap_unknown_[slot];
+        }
+        for (int g = 0; g < count; ++g) {
+            const int row = unknown[g];
+            for (int q = 0; q <= Degree; ++q)
+                right_side_[row] -= dot(change[g][q], moments.pull[q]);
+            for (int l = 0; l <= Degree; ++l) {
+                if (points_[l] < 0) continue;
+                Vec2 sum{};
+                for (int q = 0; q <= Degree; ++q) sum += basis.of_point[l][q] * weighted[g][q];
+                add_entry(row, points_[l], sum.x);
+                add_entry(row, points_[l] + 1, sum.y);
+            }
+            for (int other = 0; other <= g; ++other) {
+                double sum = 0.0;
+                for (int q = 0; q <= Degree; ++q) sum += dot(change[g][q], weighted[other][q]);
+                if (other == g)
+                    matrix_.at(row, row) += sum;
+                else
+                    add_entry(row, unknown[other], sum);
+            }
+        }
+    }
+
+    static Polynomial weigh(const Polynomial &d, const SpanMoments<Degree> &moments) {
+        Polynomial out{};
+        for (int q = 0; q <= Degree; ++q)
+            for (int p = 0; p <= Degree; ++p)
+                out[q] += Vec2{moments.xx[p + q] * d[p].x + moments.xy[p + q] * d[p].y,
+                               moments.xy[p + q] * d[p].x + moments.yy[p + q] * d[p].y};
+        return out;
+    }
+
+    bool gaps_free_ = false;
+    std::vector<int> point_unknown_, gap_unknown_, active_;
+    std::array<int, Degree + 1> points_;
+    std::array<std::array<std::array<double, 3>, Degree + 1>, Degree + 1> weighted_;
+    EnvelopeMatrix matrix_{std::vector<std::size_t>{}}, factor_{std::vector<std::size_t>{}};
+    std::vector<double> right_side_;
+};
+
+}  // namespace shapespline::removal

@@ -1,0 +1,140 @@
+"""Corners of a contour: where its direction jumps, at more than one length and above its noise.
+
+A line that runs into an arc is no corner: the two tangents at a point are those of parabolas
+fitted to either side of it, so that a bend of the outline itself does not count, only a jump.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.noise import noise_level
+
+if TYPE_CHECKING:
+    from shapespline.contour import Contour
+    from shapespline.typing import FloatArray, IntArray
+
+# A corner turns at least this much, radians.
+LEAST_TURN = np.radians(25.0)
+# The shortest length on either side that is looked at: in median steps, in tolerances.
+STEPS = 5.0
+TOLERANCES = 8.0
+# A parabola over a length L sampled at spacing d with noise sigma has a slope error of about
+# sigma sqrt(d / L^3) times a constant; this one makes it a small part of LEAST_TURN.
+NOISE_FACTOR = 132.0
+# Longer lengths, in parts of the outline, look beyond its features.
+LONGEST_PART = 0.125
+# Neighbours on each side that are averaged for the arc length, until the noise in a difference is
+# this part of a step.
+HALF_WINDOWS = (0, 1, 2, 4, 8, 16, 32)
+QUIET_STEP = 0.3
+# Corners keep this part of the length apart.
+APART = 0.6
+
+
+class Corners(NamedTuple):
+    """Where a contour turns abruptly.
+
+    ``indices`` (k,) are increasing; ``turns`` (n,) is the turn of every point, in radians, the
+    smaller of those at two lengths (0 where they disagree in sign); ``length`` the shorter one.
+    """
+
+    indices: IntArray
+    turns: FloatArray
+    length: float
+
+
+def find_corners(contour: Contour, tolerance: float = 0.0) -> Corners:
+    """Corners of a contour.
+
+    Parameters
+    ----------
+    contour : Contour
+    tolerance : float
+        What is smaller than a few tolerances is no feature, data units.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> side = np.linspace(0, 1, 20, endpoint=False)
+    >>> x = np.concatenate([side, 1 + 0 * side, 1 - side, 0 * side])
+    >>> square = Contour(np.column_stack([x, np.roll(x, 20)]), closed=True)
+    >>> find_corners(square).indices.tolist()
+    [0, 20, 40, 60]
+    """
+    sigma = noise_level(contour)
+    stations = _stations(contour, sigma)
+    spacing, total = float(np.median(np.diff(stations))), float(stations[-1])
+    noise_length = (NOISE_FACTOR * sigma * np.sqrt(spacing)) ** (2 / 3)
+    longest = LONGEST_PART * total
+    length = min(max(STEPS * spacing, TOLERANCES * tolerance, noise_length), longest)
+    fine = tangent_jumps(contour, length, stations)
+    coarse = tangent_jumps(contour, min(2.0 * length, longest), stations)
+    turns = np.where(fine * coarse > 0, np.minimum(np.abs(fine), np.abs(coarse)), 0.0)
+    return Corners(_separated_maxima(contour, turns, stations, APART * length), turns, length)
+
+
+def _stations(contour: Contour, sigma: float) -> FloatArray:
+    """Arc length at the vertices of the polyline, shape of ``contour.arc_length``.
+
+    Noise makes a polyline longer than the outline it stands for. So neighbours are averaged until
+    the noise that is left in their differences is small against the steps.
+    """
+    steps = np.diff(contour.arc_length)
+    for half in HALF_WINDOWS:
+        width = 2 * half + 1
+        if width > len(contour) // 4:
+            break
+        steps = _averaged_steps(contour, half)
+        if np.sqrt(2.0) * sigma / width <= QUIET_STEP * np.median(steps):
+            break
+    # Averaging may stall at the ends; a station must not repeat.
+    least = 1e-3 * float(steps.mean())
+    return np.concatenate([[0.0], np.cumsum(np.maximum(steps, least))])
+
+
+def _averaged_steps(contour: Contour, half: int) -> FloatArray:
+    """Lengths of the steps between averages of ``half`` neighbours on each side and the point."""
+    n, width = len(contour), 2 * half + 1
+    index = np.arange(-half, n + half)
+    index = index % n if contour.closed else np.clip(index, 0, n - 1)
+    sums = np.cumsum(np.concatenate([np.zeros((1, 2)), contour.points[index]]), axis=0)
+    means = (sums[width:] - sums[:-width]) / width
+    if contour.closed:
+        means = np.concatenate([means, means[:1]])
+    return np.hypot(*np.diff(means, axis=0).T)
+
+
+def tangent_jumps(contour: Contour, length: float, stations: FloatArray) -> FloatArray:
+    """Signed angle between the one-sided tangents at every point, radians, shape (n,)."""
+    points, first = contour.points, 0
+    if contour.closed:
+        first = len(contour)
+        lap, total = stations[:-1], stations[-1]
+        stations = np.concatenate([lap - total, lap, lap + total])
+        points = np.concatenate([points, points, points])
+    turns = np.empty(len(contour))
+    _kernels.corner_turns(points, np.ascontiguousarray(stations), first, length, turns)
+    return turns
+
+
+def _separated_maxima(
+    contour: Contour, turns: FloatArray, stations: FloatArray, apart: float
+) -> IntArray:
+    """Points that turn enough and most within ``apart`` along the outline, the sharpest first."""
+    along, total = stations[: len(contour)], stations[-1]
+
+    def gaps_to(i: int) -> FloatArray:
+        gaps = np.abs(along - along[i])
+        return np.minimum(gaps, total - gaps) if contour.closed else gaps
+
+    chosen: list[int] = []
+    enough = np.flatnonzero(turns >= LEAST_TURN)
+    for i in enough[np.argsort(-turns[enough], kind="stable")]:
+        gaps = gaps_to(i)
+        if (gaps[chosen] > apart).all() and turns[i] >= turns[gaps <= apart].max():
+            chosen.append(int(i))
+    return np.array(sorted(chosen), dtype=np.int64)
