@@ -77,12 +77,10 @@ def distance_to_curve(points: Array, curve: BSpline, step: float) -> Array:
     u = parameters[nearest]
     low = parameters[np.maximum(nearest - 1, 0)]
     high = parameters[np.minimum(nearest + 1, len(parameters) - 1)]
-    first, second = curve.derivative(), curve.derivative(2) if curve.k > 1 else None
     for _ in range(5):
-        off, velocity = curve(u) - points, first(u)
-        bend = (velocity**2).sum(axis=1)
-        if second is not None:
-            bend = np.maximum(bend + (off * second(u)).sum(axis=1), 0.1 * bend)
+        off, velocity = curve(u) - points, curve(u, nu=1)
+        speed_sq = (velocity**2).sum(axis=1)
+        bend = np.maximum(speed_sq + (off * curve(u, nu=2)).sum(axis=1), 0.1 * speed_sq)
         u = np.clip(u - (off * velocity).sum(axis=1) / np.maximum(bend, 1e-300), low, high)
         best = np.minimum(best, np.hypot(*(curve(u) - points).T))
     return best

@@ -15,9 +15,9 @@ DATA = ROOT / "examples" / "data"
 TARGET = ROOT / "docs" / "figures"
 # file, options of read, options of fit_shape
 PICTURES = (
-    ("opencv_butterfly.jpg", {"contours": "longest"}, {}),
-    ("mdi_leaf-maple_256.png", {}, {}),
-    ("NotoSerif-Regular_U0067_512.png", {}, {}),
+    ("opencv_butterfly.jpg", {"contours": "longest"}, {"tolerance": 1.5}),
+    ("mdi_leaf-maple_256.png", {}, {"tolerance": 0.5}),
+    ("NotoSerif-Regular_U0067_512.png", {}, {"tolerance": 0.5}),
 )
 
 
@@ -35,12 +35,14 @@ def from_pictures() -> None:
         axes.imshow(faded.astype(np.uint8), extent=(0, width, 0, height))
         for fit in drawing:
             axes.plot(*fit.spline(np.linspace(0, 1, 6000)).T, color="#0072B2", lw=1.6)
-            axes.plot(*fit.control_points.T, "o", ms=2.6, color="#D55E00", mew=0)
-        points = sum(fit.n_control_points for fit in drawing)
+            for piece in fit.pieces:
+                axes.plot(*piece.control_points.T, "o", ms=2.6, color="#D55E00", mew=0)
+        points = sum(fit.n_stored_points for fit in drawing)
         farthest = max(fit.hausdorff_distance for fit in drawing)
         axes.set_title(
-            f"{name}\n{points} control points, within {farthest:.2f} px both ways", fontsize=10
+            f"{name}\n{points} stored points, within {farthest:.2f} px both ways", fontsize=10
         )
+        axes.set(xlim=(0, width), ylim=(0, height))
         axes.set_axis_off()
     figure.savefig(TARGET / "pictures.png", dpi=90, metadata={"Software": None})
 

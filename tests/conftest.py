@@ -32,6 +32,15 @@ def outline():
 
 
 @pytest.fixture(scope="session")
+def all_outlines():
+    """(name, contour) of every file of examples/data/outlines."""
+    return [
+        (path.stem, read_outline(path, not path.stem.endswith("_open")))
+        for path in sorted(OUTLINES.glob("*.csv"))
+    ]
+
+
+@pytest.fixture(scope="session")
 def more_outlines():
     """Contours of a folder of the larger collection beside the project, None for any number."""
 

@@ -42,7 +42,7 @@ def test_fit_writes_what_it_says(shapespline, tmp_path):
     output, picture = tmp_path / "hand.json", tmp_path / "hand.png"
     code, out, err = shapespline("fit", HAND, "-n", 24, "-o", output, "--plot", picture)
     assert (code, err) == (0, "")
-    assert out.startswith(f"{output}: 1 curve, 24 control points")
+    assert out.startswith(f"{output}: 1 curve, 24 points")
     (fit,) = ss.read(output).fits
     assert fit.n_control_points == 24
     assert fit.closed
@@ -56,7 +56,7 @@ def test_fit_of_a_picture_keeps_its_frame_and_holes(shapespline, tmp_path):
         "fit", DATA / "images" / "NotoSerif-Regular_U0067_512.png", "-n", 24, "-o", output
     )
     assert code == 0
-    assert "3 curves, 72 control points" in out
+    assert "3 curves, 72 points" in out
     text = output.read_text()
     assert 'viewBox="0 0 512 512"' in text
     assert text.count("<path") == 1

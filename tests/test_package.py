@@ -24,7 +24,7 @@ TIERS = [
         "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
         "ordering", "formats", "plot",
     },
-    {"optimization", "sections", "nodes", "removal", "balance", "paper_figures"},
+    {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
     {"fitting"},
     {"reconstruction", "paper", "paper_report"},
     {"batch"},

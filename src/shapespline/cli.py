@@ -12,7 +12,7 @@ import time
 import warnings
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -109,16 +109,37 @@ def _main(
 def fit(
     source: Input,
     output: Annotated[Path, typer.Option("--output", "-o", help="File to write: .svg or .json.")],
+    tolerance: Annotated[
+        str | None,
+        typer.Option(
+            "--tolerance",
+            "-t",
+            help="Largest distance between data and curve, both ways: in the unit of the data, or a"
+            " part of the box diagonal such as 0.1%.",
+        ),
+    ] = None,
     control_points: Annotated[
         int | None,
         typer.Option(
             "--control-points",
             "-n",
-            help="Control points of each curve (default: as many as pay by an information"
-            " criterion).",
+            help="Control points of each curve (default without a tolerance: as many as pay by"
+            " an information criterion).",
         ),
     ] = None,
     degree: Degree = 3,
+    corners: Annotated[
+        Literal["auto", "free", "none"],
+        typer.Option(help="With a tolerance: keep corners, be free to round them, or know none."),
+    ] = "auto",
+    form: Annotated[
+        Literal["pieces", "spline"],
+        typer.Option(help="With a tolerance: lines, Beziers and splines, or one spline."),
+    ] = "pieces",
+    effort: Annotated[
+        Literal["fast", "balanced", "smallest"],
+        typer.Option(help="With a tolerance: how long to search for a smaller curve."),
+    ] = "balanced",
     plot: Annotated[
         Path | None,
         typer.Option(help="Also draw data, control polygon, curve and error as a PNG picture."),
@@ -144,7 +165,15 @@ def fit(
             raise ss.InvalidInputError(f"{target} is the input itself; choose another name")
     shape = _read(source, closed, y_down, level, polarity, channel, contours, min_area)
     began = time.perf_counter()
-    drawing = ss.fit_shape(shape, n_control_points=control_points, degree=degree)
+    drawing = ss.fit_shape(
+        shape,
+        tolerance=tolerance,
+        n_control_points=control_points,
+        degree=degree,
+        corners=None if corners == "none" else corners,
+        form=form,
+        effort=effort,
+    )
     seconds = time.perf_counter() - began
     ss.write(output, drawing)
     if plot is not None:
@@ -219,7 +248,7 @@ def _summary(output: Path, drawing: Drawing, seconds: float) -> str:
     farthest = max(fit.hausdorff_distance for fit in fits)
     curves = "1 curve" if len(fits) == 1 else f"{len(fits)} curves"
     line = (
-        f"{output}: {curves}, {points} control points, data and curve within {farthest:.4g}"
+        f"{output}: {curves}, {points} points, data and curve within {farthest:.4g}"
         f" of each other, {seconds:.2f} s"
     )
     return "\n".join([line, *_remarks(fits)])

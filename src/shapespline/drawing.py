@@ -25,6 +25,11 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray, IntArray
 
 
+# A joint that turns by no more is smooth to the eye and to a milling machine; a rounding above the
+# degree that fits promise.
+CORNER_TURN = np.radians(1.01)
+
+
 @dataclass(frozen=True, eq=False)
 class Status:
     """How a fit ended: one of four names, and a sentence with figures and a remedy.
@@ -108,6 +113,8 @@ class Fit:
         One record per iteration, the start first.
     method : str
         Name of the solver.
+    sections : tuple of Piece
+        The pieces that the curve was made of, end to end; empty for a single spline.
     outliers : ndarray
         Indices, among the points that were given, of those left out on request.
     """
@@ -122,6 +129,7 @@ class Fit:
     status: Status
     history: tuple[Iteration, ...] = field(repr=False)
     method: str
+    sections: tuple[Piece, ...] = field(default=(), repr=False)
     outliers: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64), repr=False)
 
     @cached_property
@@ -157,18 +165,22 @@ class Fit:
 
     @property
     def corners(self) -> FloatArray:
-        """Parameters where the curve may turn abruptly: knots of multiplicity degree or more."""
-        u, degree = self.spline.breakpoints, self.degree
-        inside = u[:-1] if self.spline.periodic else u[1:-1]
-        counts = np.searchsorted(self.knots, inside, "right") - np.searchsorted(self.knots, inside)
-        corners = inside[counts >= degree]
-        if self.closed and not self.spline.periodic:
-            corners = np.concatenate([u[:1], corners])
-        return corners
+        """Parameters where the curve turns by more than a degree, shape (c,)."""
+        pieces, breakpoints = self.spline.beziers()
+        arriving, leaving = pieces[:, -1] - pieces[:, -2], pieces[:, 1] - pieces[:, 0]
+        if self.closed:
+            before, at = np.roll(arriving, 1, axis=0), breakpoints[:-1]
+        else:
+            before, leaving, at = arriving[:-1], leaving[1:], breakpoints[1:-1]
+        turn = before[:, 0] * leaving[:, 1] - before[:, 1] * leaving[:, 0]
+        along = (before * leaving).sum(axis=1)
+        return at[np.abs(np.arctan2(turn, along)) > CORNER_TURN]
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
-        """The curve end to end as lines, Beziers or splines: here one piece."""
+        """The curve end to end as lines, Beziers or splines."""
+        if self.sections:
+            return self.sections
         spline = self.spline
         without_inner_knots = len(spline.breakpoints) == 2 and not spline.periodic
         kind = "line" if spline.degree == 1 else "bezier"
@@ -183,9 +195,15 @@ class Fit:
 
     @property
     def n_stored_points(self) -> int:
-        """Distinct points that a file of the pieces stores."""
-        shared = self.closed and not self.spline.periodic
-        return self.n_control_points - int(shared)
+        """Distinct points that a file of the pieces stores.
+
+        A line counts 1, a quadratic 2, a cubic 3, a spline with k interior knots its degree + k;
+        an open curve one more.
+        """
+        if self.spline.periodic and not self.sections:
+            return self.n_control_points
+        stored = sum(len(piece.control_points) - 1 for piece in self.pieces)
+        return stored + int(not self.closed)
 
     @property
     def kept(self) -> bool:

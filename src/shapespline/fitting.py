@@ -1,55 +1,54 @@
-"""fit_curve: points in, verified Fit out."""
+"""fit_curve: points in, verified Fit out. Chooses among the engines."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from contextlib import suppress
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
+from shapespline.arrays import float_array, is_number
 from shapespline.balance import STRAY_WEIGHT, balanced_start
 from shapespline.contour import Contour
+from shapespline.drawing import Fit, Status
 from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.estimation import FINAL_LIMITS, chosen_count
 from shapespline.knots import check_count, check_degree
 from shapespline.optimization import checked_weights, optimize
-from shapespline.solvers.iteration import Limits
+from shapespline.removal import fit_spline
+from shapespline.sections import fit_pieces
 
 if TYPE_CHECKING:
-    from shapespline.drawing import Fit
+    from shapespline.curve import BSplineCurve
+    from shapespline.distance import Distances
+    from shapespline.drawing import Piece
     from shapespline.optimization import Callback
-    from shapespline.typing import ArrayLike, FloatArray
+    from shapespline.typing import ArrayLike
 
-# Sizes tried when none is given grow by this factor ...
-SIZE_FACTOR = 1.25
-# ... up to this part of the number of points, and in this many rounds of balancing each.
-LARGEST_PART = 0.25
-SEARCH_ROUNDS = 2
-# Deviation, in parts of the median distance between points, that the sampling itself may hide.
-SAMPLING_FLOOR = 0.01
-# Points that the search for a size looks at: more tell it nothing new.
-SEARCH_POINTS = 10_000
-# The start has been balanced already: what is left falls by 1e-4 and less.
-FINAL_LIMITS = Limits(max_iterations=300, max_evaluations=1000, relative_decrease=1e-4)
-# Sizes in a row that do not lower the criterion before the search ends; not before this size, for
-# an outline with many features shows nothing until there is a control point for each.
-SEARCH_PATIENCE = 3
-SEARCH_AT_LEAST = 64
+Form = Literal["pieces", "spline"]
+Effort = Literal["fast", "balanced", "smallest"]
 
 
 def fit_curve(
     points: ArrayLike | Contour,
     *,
     closed: bool | None = None,
+    tolerance: float | str | None = None,
     n_control_points: int | None = None,
     degree: int = 3,
+    corners: Literal["auto", "free"] | ArrayLike | None = "auto",
+    form: Form = "pieces",
+    effort: Effort = "balanced",
     weights: ArrayLike | None = None,
     method: str = "levenberg-marquardt",
     callback: Callback | None = None,
 ) -> Fit:
     """Fit a B-spline curve to ordered points.
 
-    Parameters and control points are optimised together from a start that spreads the control
-    points by the bending of the outline and the errors of a few short fits. A closed outline gets
-    a periodic curve, without seam; an open one a clamped curve through its first and last point.
+    With a ``tolerance``: the fewest stored points that keep it, in both directions, as lines,
+    Beziers and small splines or as one spline. With ``n_control_points``: one spline by least
+    squares, control points and parameters together. With neither, the same with a size that an
+    information criterion chooses, down to the noise or what the sampling can show.
 
     Parameters
     ----------
@@ -57,49 +56,74 @@ def fit_curve(
         In order along the outline, data units.
     closed : bool, optional
         Whether the last point joins the first; found from the data when not given.
+    tolerance : float or str, optional
+        Largest distance from data to curve and from curve to data polyline, data units; or a
+        part of the box diagonal, such as ``"0.1%"``.
     n_control_points : int, optional
-        Number of control points, ``degree + 1`` to n. Chosen by an information criterion when not
-        given: more control points as long as the error falls by more than they cost, down to the
-        noise or what the sampling can show.
+        Number of control points, ``degree + 1`` to n.
     degree : int
         1 to 9.
+    corners : "auto", "free", None or array_like of indices
+        With a tolerance: keep corners sharp and everything else tangent-continuous; round or make
+        them where that is smaller; know none; or these points are the corners.
+    form : {"pieces", "spline"}
+        With a tolerance: pieces between nodes, or one spline, smooth everywhere.
+    effort : {"fast", "balanced", "smallest"}
+        With a tolerance: how long to search.
     weights : array_like, shape (n,), optional
-        One positive weight per point.
+        One positive weight per point, for least squares.
     method : str
-        See `optimize`.
+        For least squares; see `optimize`.
     callback : callable, optional
-        Called with every Iteration of the final run; a true answer cancels it.
+        Called with every Iteration of a least-squares run; a true answer cancels it.
 
     Returns
     -------
     Fit
-        Its distances are verified both ways; ``tolerance`` is the one that it keeps.
+        Its distances are verified both ways; ``fit.kept`` and ``fit.status`` say whether the
+        tolerance holds.
 
     Raises
     ------
     InvalidInputError, DegenerateContourError
-        If the points, the weights or a number is not usable; the message says which and why.
+        If the points or an argument is not usable; the message says which and why.
 
     Examples
     --------
     >>> t = np.linspace(0, 2 * np.pi, 200, endpoint=False)
     >>> ellipse = np.column_stack([3 * np.cos(t), np.sin(t)])
-    >>> fit = fit_curve(ellipse, closed=True, n_control_points=8)
-    >>> fit.n_control_points, fit.closed, fit.hausdorff_distance < 0.01
-    (8, True, True)
+    >>> fit = fit_curve(ellipse, closed=True, tolerance=0.01)
+    >>> fit.kept, fit.closed, fit.n_stored_points <= 8
+    (True, True, True)
+    >>> fit_curve(ellipse, closed=True, n_control_points=12).n_control_points
+    12
     """
     degree = check_degree(degree)
-    if not isinstance(points, Contour):
-        points = Contour(points, closed)
-    elif closed is not None and closed != points.closed:
-        points = Contour.silently(points.points[points.source], closed)
-    contour = points
-    summed = checked_weights(weights, contour)
-    if len(contour) < degree + 1:
+    contour = _contour(points, closed)
+    if len(contour) < degree + 1 and tolerance is None:
         raise DegenerateContourError(
             f"points must hold at least degree + 1 = {degree + 1} distinct points for degree"
             f" {degree}, got {len(contour)}; add points or lower the degree"
         )
+    _check_choice("form", form, get_args(Form))
+    _check_choice("effort", effort, get_args(Effort))
+    if tolerance is not None and n_control_points is not None:
+        raise InvalidInputError("tolerance and n_control_points exclude each other: give one")
+    if tolerance is None:
+        for name, value, default in (
+            ("corners", corners, "auto"),
+            ("form", form, "pieces"),
+            ("effort", effort, "balanced"),
+        ):
+            if not (isinstance(value, str) and value == default):
+                raise InvalidInputError(
+                    f"{name} acts with a tolerance only: give one, or leave it out"
+                )
+    elif weights is not None:
+        raise InvalidInputError("weights act in least squares only: leave out the tolerance")
+    if tolerance is not None:
+        return _within(contour, tolerance_length(tolerance, contour), degree, corners, form, effort)
+    summed = checked_weights(weights, contour)
     if n_control_points is None:
         count = chosen_count(contour, degree, summed)
     else:
@@ -109,10 +133,9 @@ def fit_curve(
                 f"n_control_points must be at most the number of distinct points, {len(contour)},"
                 f" got {count}; lower it"
             )
-    start = balanced_start(contour, count, degree, summed)
     return optimize(
         contour,
-        start,
+        balanced_start(contour, count, degree, summed),
         method,
         weights=weights,
         stray_weight=STRAY_WEIGHT,
@@ -121,27 +144,116 @@ def fit_curve(
     )
 
 
-def chosen_count(contour: Contour, degree: int, weights: FloatArray | None = None) -> int:
-    """Number of control points that the Bayesian information criterion favours.
+def tolerance_length(tolerance: float | str, contour: Contour) -> float:
+    """A tolerance as a length in data units: a number, or a part of the box diagonal in per cent.
 
-    Minimises n log(rms^2 + floor^2) + 2 m log n over sizes m that grow by a quarter, where the
-    floor is what the sampling cannot show (Schwarz 1978), up to a quarter of the number of points;
-    on a resampled outline where there are more than 10 000.
+    Examples
+    --------
+    >>> tolerance_length("0.5%", Contour([(0, 0), (3, 4)]))
+    0.025
     """
-    if len(contour) > SEARCH_POINTS and weights is None:
-        contour = contour.resampled(SEARCH_POINTS)
-    n = len(contour)
-    steps = np.diff(contour.arc_length)
-    floor_sq = (SAMPLING_FLOOR * float(np.median(steps))) ** 2
-    largest = max(degree + 1, int(LARGEST_PART * n))
-    size, best_size, best, misses = degree + 1, degree + 1, np.inf, 0
-    while size <= largest and (size <= SEARCH_AT_LEAST or misses < SEARCH_PATIENCE):
-        start = balanced_start(contour, size, degree, weights, rounds=SEARCH_ROUNDS)
-        residuals = start.spline(start.parameters) - contour.points
-        criterion = n * np.log((residuals**2).sum() / n + floor_sq) + 2 * size * np.log(n)
-        if criterion < best:
-            best_size, best, misses = size, criterion, 0
-        else:
-            misses += 1
-        size = max(size + 1, round(SIZE_FACTOR * size))
-    return best_size
+    length = np.nan
+    if isinstance(tolerance, str):
+        text = tolerance.strip()
+        with suppress(ValueError):
+            length = float(text.removesuffix("%"))
+        if text.endswith("%"):
+            length *= 0.01 * contour.box_diagonal
+    elif is_number(tolerance):
+        length = float(tolerance)
+    if not 0 < length < np.inf:
+        raise InvalidInputError(
+            "tolerance must be a positive length in data units, or a part of the box diagonal"
+            f" such as '0.1%', got {tolerance!r}"
+        )
+    return length
+
+
+def _contour(points: ArrayLike | Contour, closed: bool | None) -> Contour:
+    if not isinstance(points, Contour):
+        return Contour(points, closed)
+    if closed is None or closed == points.closed:
+        return points
+    return Contour.silently(points.points[points.source], closed)
+
+
+def _check_choice(name: str, value: object, choices: tuple[str, ...]) -> None:
+    if value not in choices:
+        raise InvalidInputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
+
+
+def _within(
+    contour: Contour,
+    tolerance: float,
+    degree: int,
+    corners: Literal["auto", "free"] | ArrayLike | None,
+    form: Form,
+    effort: Effort,
+) -> Fit:
+    """The smallest curve within a tolerance, of the form that was asked for."""
+    corners = _checked_corners(corners, len(contour))
+    if form == "spline":
+        if not (corners is None or isinstance(corners, str)):
+            raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
+        single = fit_spline(contour, tolerance, degree=degree, effort=effort)
+        return _fit(contour, single.curve, single.distances, tolerance, "removal")
+    pieces = fit_pieces(contour, tolerance, corners=corners, degree=degree, effort=effort)
+    fit = _fit(
+        contour, pieces.spline, pieces.distances, tolerance, "sections", sections=pieces.pieces
+    )
+    may_be_smooth = corners is None or not len(pieces.corners)
+    if not may_be_smooth and not (isinstance(corners, str) and corners == "free"):
+        return fit
+    single = fit_spline(contour, tolerance, degree=degree, effort=effort)
+    smooth = _fit(contour, single.curve, single.distances, tolerance, "removal")
+    # Of equals the single spline: it has no joints.
+    better = smooth.kept >= fit.kept and smooth.n_stored_points <= fit.n_stored_points
+    return smooth if better else fit
+
+
+def _checked_corners(
+    corners: Literal["auto", "free"] | ArrayLike | None, n: int
+) -> Literal["auto", "free"] | ArrayLike | None:
+    if corners is None or (isinstance(corners, str) and corners in ("auto", "free")):
+        return corners
+    message = f"corners must be 'auto', 'free', None or indices below {n}, got {corners!r}"
+    if isinstance(corners, str):
+        raise InvalidInputError(message)
+    given = float_array(corners, "corners").ravel()
+    if (given != np.floor(given)).any() or (given < 0).any() or (given >= n).any():
+        raise InvalidInputError(message)
+    return np.unique(given.astype(np.int64))
+
+
+def _fit(
+    contour: Contour,
+    spline: BSplineCurve,
+    distances: Distances,
+    tolerance: float,
+    method: str,
+    sections: tuple[Piece, ...] = (),
+) -> Fit:
+    """The Fit of a verified curve, with a status that is a true sentence."""
+    figures = (
+        f"data to curve {distances.max_distance:.6g},"
+        f" curve to data {distances.reverse_distance:.6g}"
+    )
+    if distances.hausdorff_distance <= tolerance:
+        status = Status.KEPT.saying(f"tolerance {tolerance:.6g} kept: {figures}")
+    else:
+        status = Status.EXCEEDED.saying(
+            f"tolerance {tolerance:.6g} not kept: {figures}; take a larger one"
+        )
+    return Fit(
+        spline=spline,
+        contour=contour,
+        parameters=distances.parameters[contour.source],
+        max_distance=distances.max_distance,
+        rms_distance=distances.rms_distance,
+        hausdorff_distance=distances.hausdorff_distance,
+        tolerance=tolerance,
+        status=status,
+        history=(),
+        method=method,
+        sections=sections,
+    )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from shapespline.contour import Shape
+import numpy as np
+
+from shapespline.contour import Contour, Shape
 from shapespline.drawing import Drawing
 from shapespline.errors import InvalidInputError
-from shapespline.fitting import fit_curve
+from shapespline.fitting import Effort, Form, fit_curve, tolerance_length
 
 if TYPE_CHECKING:
     from shapespline.optimization import Callback
@@ -16,8 +18,12 @@ if TYPE_CHECKING:
 def fit_shape(
     shape: Shape,
     *,
+    tolerance: float | str | None = None,
     n_control_points: int | None = None,
     degree: int = 3,
+    corners: Literal["auto", "free"] | None = "auto",
+    form: Form = "pieces",
+    effort: Effort = "balanced",
     method: str = "levenberg-marquardt",
     callback: Callback | None = None,
 ) -> Drawing:
@@ -26,9 +32,11 @@ def fit_shape(
     Parameters
     ----------
     shape : Shape
+    tolerance : float or str, optional
+        Data units, or a part of the box diagonal of the whole shape, such as ``"0.1%"``.
     n_control_points : int, optional
-        Number of control points of each curve; chosen for each contour when not given.
-    degree, method, callback
+        Number of control points of each curve; chosen for each contour when neither is given.
+    degree, corners, form, effort, method, callback
         See `fit_curve`.
 
     Returns
@@ -54,13 +62,20 @@ def fit_shape(
             f"shape must be a Shape, got {type(shape).__name__};"
             " make one with Shape([contour]), or call fit_curve"
         )
+    if isinstance(tolerance, str):
+        everything = Contour.silently(np.concatenate([c.points for c in shape]), closed=False)
+        tolerance = tolerance_length(tolerance, everything)
     fits = []
     for index, contour in enumerate(shape):
         try:
             fit = fit_curve(
                 contour,
+                tolerance=tolerance,
                 n_control_points=n_control_points,
                 degree=degree,
+                corners=corners,
+                form=form,
+                effort=effort,
                 method=method,
                 callback=callback,
             )

@@ -14,6 +14,7 @@ Version 1 is one object::
         status       {name, value}
         history      columns, one value for each iteration; null where it was not computed
         method       name of the solver
+        sections     {kind, degree, knots, control_points} end to end; none for a single spline
         outliers     indices of the points left out
 
 Numbers are written with the shortest digits that read back to the same double.
@@ -23,15 +24,26 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from shapespline.contour import Contour, Frame
 from shapespline.curve import BSplineCurve
-from shapespline.drawing import Drawing, Fit, Iteration, Status
+from shapespline.drawing import Drawing, Fit, Iteration, Piece, Status
 from shapespline.errors import FormatError, InvalidInputError
+from shapespline.formats.json_values import (
+    checked_boolean,
+    checked_indices,
+    checked_integer,
+    checked_list,
+    checked_number,
+    checked_number_or_null,
+    checked_numbers,
+    checked_object,
+    checked_points,
+    checked_string,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -44,9 +56,10 @@ FORMAT, VERSION = "shapespline", 1
 LINE_LENGTH = 100
 DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
-FIT_FIELDS += ("status", "history", "method", "outliers")
+FIT_FIELDS += ("status", "history", "method", "sections", "outliers")
 DRAWING_FIELDS = ("format", "version", "frame", "parents", "fits")
 COUNTS = ("iteration", "evaluations")  # the columns of the history that hold integers
+KINDS = ("line", "bezier", "spline")
 KNOWN = (Status.KEPT, Status.EXCEEDED, Status.BUDGET, Status.CANCELLED)
 STATUSES = {status.name: status for status in KNOWN}
 
@@ -148,6 +161,15 @@ def _fit_document(fit: Fit) -> dict[str, Any]:
             for name in Iteration._fields
         },
         "method": fit.method,
+        "sections": [
+            {
+                "kind": piece.kind,
+                "degree": piece.degree,
+                "knots": piece.knots.tolist(),
+                "control_points": piece.control_points.tolist(),
+            }
+            for piece in fit.sections
+        ],
         "outliers": np.asarray(fit.outliers).tolist(),
     }
 
@@ -216,129 +238,48 @@ def _refused(constant: str) -> float:
     raise FormatError(f"numbers must be finite, found {constant}")
 
 
-def _object(value: object, where: str, names: tuple[str, ...]) -> dict[str, Any]:
-    """Return an object with exactly these fields."""
-    if not isinstance(value, dict):
-        raise FormatError(f"{where} must be an object, found {_kind(value)}")
-    for name in names:
-        if name not in value:
-            raise FormatError(f"{where} lacks the field {name!r}")
-    for name in value:
-        if name not in names:
-            raise FormatError(f"{where} has an unknown field {name!r}")
-    return value
-
-
-def _list(value: object, where: str) -> list[Any]:
-    if not isinstance(value, list):
-        raise FormatError(f"{where} must be an array, found {_kind(value)}")
-    return value
-
-
-def _string(value: object, where: str) -> str:
-    if not isinstance(value, str):
-        raise FormatError(f"{where} must be a string, found {_kind(value)}")
-    return value
-
-
-def _boolean(value: object, where: str) -> bool:
-    if not isinstance(value, bool):
-        raise FormatError(f"{where} must be true or false, found {_kind(value)}")
-    return value
-
-
-def _integer(value: object, where: str) -> int:
-    # Beyond 2^53 other programs round, and nothing here counts that far.
-    if not isinstance(value, int) or isinstance(value, bool) or abs(value) > 2**53:
-        raise FormatError(f"{where} must be an integer, found {_kind(value)}")
-    return value
-
-
-def _number(value: object, where: str) -> float:
-    """Return a float; programs that rewrite a file may have dropped the .0 of a whole number."""
-    if not isinstance(value, int | float) or isinstance(value, bool):
-        raise FormatError(f"{where} must be a number, found {_kind(value)}")
-    if abs(value) > sys.float_info.max:  # 1e999, or an integer of as many digits
-        raise FormatError(f"{where} must be a number in the range of doubles")
-    return float(value)
-
-
-def _number_or_null(value: object, where: str) -> float:
-    return math.nan if value is None else _number(value, where)
-
-
-def _numbers(value: object, where: str) -> FloatArray:
-    """Return an array of floats, shape (n,)."""
-    items = _list(value, where)
-    return np.array([_number(item, f"{where}[{i}]") for i, item in enumerate(items)], dtype=float)
-
-
-def _points(value: object, where: str) -> FloatArray:
-    """Return an array of points, shape (n, 2)."""
-    rows = [_numbers(item, f"{where}[{i}]") for i, item in enumerate(_list(value, where))]
-    wrong = next((index for index, row in enumerate(rows) if len(row) != 2), None)
-    if wrong is not None:
-        raise FormatError(f"{where}[{wrong}] must hold x and y, found {len(rows[wrong])} numbers")
-    return np.array(rows, dtype=float).reshape(-1, 2)
-
-
-def _indices(value: object, where: str, first: int, count: int) -> list[int]:
-    """Return integers from ``first`` to ``count - 1``."""
-    indices = [_integer(item, f"{where}[{i}]") for i, item in enumerate(_list(value, where))]
-    for position, index in enumerate(indices):
-        if not first <= index < count:
-            raise FormatError(
-                f"{where}[{position}] must be from {first} to {count - 1}, found {index}"
-            )
-    return indices
-
-
-def _kind(value: object) -> str:
-    """Name a JSON value for a message."""
-    if isinstance(value, dict | list):
-        return "an object" if isinstance(value, dict) else "an array"
-    text = json.dumps(value)
-    return text if len(text) <= 40 else f"{text[:37]}..."
-
-
 def _drawing(document: object) -> Drawing:
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise FormatError('no shapespline drawing: it does not begin with "format": "shapespline"')
-    version = _integer(document.get("version"), "version")
+    version = checked_integer(document.get("version"), "version")
     if version != VERSION:
         raise FormatError(f"version {version} is unknown, this program reads version {VERSION}")
-    fields = _object(document, "the drawing", DRAWING_FIELDS)
-    items = _list(fields["fits"], "fits")
-    parents = _indices(fields["parents"], "parents", -1, len(items))
+    fields = checked_object(document, "the drawing", DRAWING_FIELDS)
+    items = checked_list(fields["fits"], "fits")
+    parents = checked_indices(fields["parents"], "parents", -1, len(items))
     if not items or len(parents) != len(items):
         counts = f"{len(items)} and {len(parents)}"
         raise FormatError(f"fits and parents must be equally many, at least one, found {counts}")
     frame = fields["frame"]
     if frame is not None:
-        sides = _object(frame, "frame", Frame._fields)
-        frame = Frame(**{name: _number(sides[name], f"frame.{name}") for name in Frame._fields})
+        sides = checked_object(frame, "frame", Frame._fields)
+        frame = Frame(*(checked_number(sides[name], f"frame.{name}") for name in Frame._fields))
     return Drawing([_fit(item, f"fits[{i}]") for i, item in enumerate(items)], parents, frame)
 
 
 def _fit(value: object, where: str) -> Fit:
-    fields = _object(value, where, FIT_FIELDS)
+    fields = checked_object(value, where, FIT_FIELDS)
     contour = _built(_contour, fields["contour"], f"{where}.contour")
-    parameters = _numbers(fields["parameters"], f"{where}.parameters")
+    parameters = checked_numbers(fields["parameters"], f"{where}.parameters")
     if len(parameters) != contour.n_given:
         raise FormatError(
             f"{where}.parameters must be one for each of {contour.n_given} points,"
             f" found {len(parameters)}"
         )
-    outliers = _indices(fields["outliers"], f"{where}.outliers", 0, contour.n_given)
-    distances = {name: _number(fields[name], f"{where}.{name}") for name in DISTANCES}
+    outliers = checked_indices(fields["outliers"], f"{where}.outliers", 0, contour.n_given)
+    distances = {name: checked_number(fields[name], f"{where}.{name}") for name in DISTANCES}
     return Fit(
         spline=_built(_spline, fields["spline"], f"{where}.spline"),
         contour=contour,
         parameters=parameters,
-        **distances,
+        max_distance=distances["max_distance"],
+        rms_distance=distances["rms_distance"],
+        hausdorff_distance=distances["hausdorff_distance"],
+        tolerance=distances["tolerance"],
+        sections=_sections(fields["sections"], f"{where}.sections"),
         status=_status(fields["status"], f"{where}.status"),
         history=_history(fields["history"], f"{where}.history"),
-        method=_string(fields["method"], f"{where}.method"),
+        method=checked_string(fields["method"], f"{where}.method"),
         outliers=np.array(outliers, dtype=np.int64),
     )
 
@@ -352,43 +293,60 @@ def _built(build: Callable[[object, str], T], value: object, where: str) -> T:
 
 
 def _spline(value: object, where: str) -> BSplineCurve:
-    fields = _object(value, where, ("degree", "periodic", "knots", "control_points"))
+    fields = checked_object(value, where, ("degree", "periodic", "knots", "control_points"))
     return BSplineCurve(
-        _numbers(fields["knots"], f"{where}.knots"),
-        _points(fields["control_points"], f"{where}.control_points"),
-        _integer(fields["degree"], f"{where}.degree"),
-        _boolean(fields["periodic"], f"{where}.periodic"),
+        checked_numbers(fields["knots"], f"{where}.knots"),
+        checked_points(fields["control_points"], f"{where}.control_points"),
+        checked_integer(fields["degree"], f"{where}.degree"),
+        checked_boolean(fields["periodic"], f"{where}.periodic"),
     )
+
+
+def _sections(value: object, where: str) -> tuple[Piece, ...]:
+    pieces = []
+    for index, item in enumerate(checked_list(value, where)):
+        place = f"{where}[{index}]"
+        fields = checked_object(item, place, Piece._fields)
+        kind = checked_string(fields["kind"], f"{place}.kind")
+        if kind not in KINDS:
+            raise FormatError(f"{place}.kind must be one of {', '.join(KINDS)}, found {kind!r}")
+        degree = checked_integer(fields["degree"], f"{place}.degree")
+        knots = checked_numbers(fields["knots"], f"{place}.knots")
+        points = checked_points(fields["control_points"], f"{place}.control_points")
+        if len(knots) != len(points) + degree + 1:
+            raise FormatError(f"{place} must have degree + 1 knots more than control points")
+        pieces.append(Piece(kind, degree, knots, points))
+    return tuple(pieces)
 
 
 def _contour(value: object, where: str) -> Contour:
     """Return the contour of the points as they were given, so that ``source`` comes back too."""
-    fields = _object(value, where, ("closed", "points", "source"))
-    points = _points(fields["points"], f"{where}.points")
+    fields = checked_object(value, where, ("closed", "points", "source"))
+    points = checked_points(fields["points"], f"{where}.points")
     source = list(range(len(points)))
     if fields["source"] is not None:
-        source = _indices(fields["source"], f"{where}.source", 0, len(points))
-    contour = Contour.silently(points[source], _boolean(fields["closed"], f"{where}.closed"))
+        source = checked_indices(fields["source"], f"{where}.source", 0, len(points))
+    contour = Contour.silently(points[source], checked_boolean(fields["closed"], f"{where}.closed"))
     if contour.source.tolist() != source or len(contour) != len(points):
         raise FormatError(f"{where}: source does not lead to the points, or two neighbours agree")
     return contour
 
 
 def _status(value: object, where: str) -> Status:
-    fields = _object(value, where, ("name", "value"))
-    name = _string(fields["name"], f"{where}.name")
+    fields = checked_object(value, where, ("name", "value"))
+    name = checked_string(fields["name"], f"{where}.name")
     if name not in STATUSES:
         raise FormatError(f"{where}.name must be one of {', '.join(STATUSES)}, found {name!r}")
-    return STATUSES[name].saying(_string(fields["value"], f"{where}.value"))
+    return STATUSES[name].saying(checked_string(fields["value"], f"{where}.value"))
 
 
 def _history(value: object, where: str) -> tuple[Iteration, ...]:
     """Return the records of columns of equal length."""
-    fields = _object(value, where, Iteration._fields)
+    fields = checked_object(value, where, Iteration._fields)
     columns = []
     for name in Iteration._fields:
-        check = _integer if name in COUNTS else _number_or_null
-        items = _list(fields[name], f"{where}.{name}")
+        check = checked_integer if name in COUNTS else checked_number_or_null
+        items = checked_list(fields[name], f"{where}.{name}")
         columns.append([check(item, f"{where}.{name}[{i}]") for i, item in enumerate(items)])
     lengths = sorted({len(column) for column in columns})
     if len(lengths) > 1:
