@@ -155,12 +155,13 @@ NB_MODULE(_kernels, m) {
             nb::gil_scoped_release release;
             return ss::cost_and_gradient(
                 knot_vector(knots, degree, periodic), vectors(control_points),
-                samples(points, parameters, weights, held, control_ends_fixed, stray_weight), vectors(control_gradient),
-                parameter_gradient.data());
+                samples(points, parameters, weights, held, control_ends_fixed, stray_weight),
+                vectors(control_gradient), parameter_gradient.data());
         },
         "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
         "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
-        "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "control_gradient"_a.noconvert(), "parameter_gradient"_a.noconvert());
+        "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "control_gradient"_a.noconvert(),
+        "parameter_gradient"_a.noconvert());
 
     m.def(
         "gauss_newton_diagonal",
@@ -185,13 +186,14 @@ NB_MODULE(_kernels, m) {
             nb::gil_scoped_release release;
             const auto r = ss::damped_step(
                 knot_vector(knots, degree, periodic), vectors(control_points),
-                samples(points, parameters, weights, held, control_ends_fixed, stray_weight), damping, vectors(control_step),
-                parameter_step.data());
+                samples(points, parameters, weights, held, control_ends_fixed, stray_weight),
+                damping, vectors(control_step), parameter_step.data());
             return std::make_tuple(r.solved, r.cost, r.predicted_cost, r.gradient_norm);
         },
         "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
         "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
-        "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "damping"_a, "control_step"_a.noconvert(), "parameter_step"_a.noconvert());
+        "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "damping"_a,
+        "control_step"_a.noconvert(), "parameter_step"_a.noconvert());
 
     // The structured fit.
     m.def(
@@ -232,8 +234,8 @@ NB_MODULE(_kernels, m) {
         .def(
             "__init__",
             [](ss::removal::RemovalSearch *self, In2 data, bool closed, int degree, double tolerance,
-               bool keep_rule, bool start_from_polyline, double gap_ratio, double speed_ratio, double least_gap,
-               double largest_gap, double enough, double accept, int samples_per_span,
+               bool keep_rule, bool start_from_polyline, double gap_ratio, double speed_ratio,
+               double least_gap, double largest_gap, double enough, double accept, int samples_per_span,
                double sample_weight, double hope) {
                 nb::gil_scoped_release release;
                 const ss::removal::FitLimits fit{tolerance,     enough,    samples_per_span,
@@ -241,10 +243,12 @@ NB_MODULE(_kernels, m) {
                                         hope};
                 new (self) ss::removal::RemovalSearch(
                     vectors(data), closed, degree,
-                    {tolerance, keep_rule, start_from_polyline, {gap_ratio, speed_ratio}, fit, accept});
+                    {tolerance, keep_rule, start_from_polyline, {gap_ratio, speed_ratio}, fit,
+                     accept});
             },
             "data"_a.noconvert(), "closed"_a, "degree"_a, "tolerance"_a, "keep_rule"_a,
-            "start_from_polyline"_a, "gap_ratio"_a, "speed_ratio"_a, "least_gap"_a, "largest_gap"_a, "enough"_a,
+            "start_from_polyline"_a, "gap_ratio"_a, "speed_ratio"_a, "least_gap"_a,
+            "largest_gap"_a, "enough"_a,
             "accept"_a, "samples_per_span"_a, "sample_weight"_a, "hope"_a)
         .def("remove_cheapest", &ss::removal::RemovalSearch::remove_cheapest, "rank"_a, "effort"_a,
              "most_trials"_a, nb::call_guard<nb::gil_scoped_release>())
