@@ -238,3 +238,13 @@ def test_bad_nesting(n, parents, message):
 def test_a_shape_holds_contours_only():
     with pytest.raises(InvalidInputError, match="contours must"):
         Shape([on_circle(5)])
+
+
+def test_accuracy_is_carried_and_checked():
+    square = Contour([(0, 0), (1, 0), (1, 1), (0, 1)], closed=True, accuracy=0.1)
+    assert square.accuracy == 0.1
+    assert square.resampled(9).accuracy == 0.1
+    assert Contour([(0, 0), (1, 0)]).accuracy is None
+    for wrong in (-1.0, np.inf, np.nan, "fine"):
+        with pytest.raises(InvalidInputError, match="accuracy must be a length"):
+            Contour([(0, 0), (1, 0)], accuracy=wrong)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.arrays import float_array
+from shapespline.arrays import float_array, is_number
 from shapespline.errors import DegenerateContourError, DroppedPointsWarning, InvalidInputError
 
 if TYPE_CHECKING:
@@ -128,12 +128,16 @@ class Contour:
     closed : bool, optional
         Whether the last point is joined to the first. Found from the gap between the ends when
         not given.
+    accuracy : float, optional
+        Standard deviation of the points across the outline that their source is known to have,
+        data units; a picture's pixels set it. Estimation does not look for finer detail.
 
     Attributes
     ----------
     points : ndarray, shape (n, 2)
         The distinct points, float64, read-only.
     closed : bool
+    accuracy : float or None
     source : ndarray, shape (n_given,)
         For each point that was given, the index in ``points`` of the one that stands for it.
 
@@ -154,9 +158,12 @@ class Contour:
     points: FloatArray
     closed: bool
     source: IntArray = field(repr=False)
+    accuracy: float | None = field(repr=False)
 
-    def __init__(self, points: ArrayLike, closed: bool | None = None) -> None:
-        n_dropped = self._assemble(_validated(points), closed)
+    def __init__(
+        self, points: ArrayLike, closed: bool | None = None, *, accuracy: float | None = None
+    ) -> None:
+        n_dropped = self._assemble(_validated(points), closed, accuracy)
         if n_dropped:
             warnings.warn(
                 f"dropped {n_dropped} of {self.n_given} points: equal to the point before them",
@@ -165,14 +172,18 @@ class Contour:
             )
 
     @classmethod
-    def silently(cls, points: ArrayLike, closed: bool) -> Contour:
+    def silently(cls, points: ArrayLike, closed: bool, *, accuracy: float | None = None) -> Contour:
         """The same without a warning, for points whose repetitions have been told before."""
         contour = cls.__new__(cls)
-        contour._assemble(_validated(points), closed)
+        contour._assemble(_validated(points), closed, accuracy)
         return contour
 
-    def _assemble(self, array: FloatArray, closed: bool | None) -> int:
+    def _assemble(self, array: FloatArray, closed: bool | None, accuracy: float | None) -> int:
         """Set the fields from validated points; how many were dropped."""
+        if accuracy is not None and not (is_number(accuracy) and 0 <= accuracy < np.inf):
+            raise InvalidInputError(
+                f"accuracy must be a length in data units or None, got {accuracy!r}"
+            )
         if closed is None:
             closed = _looks_closed(array)
         elif not isinstance(closed, bool | np.bool_):
@@ -186,16 +197,19 @@ class Contour:
             source[source == len(distinct) - 1] = 0
             distinct = distinct[:-1]
         _check_extent(distinct, closed, len(array))
-        self._set(distinct, bool(closed), source)
+        self._set(distinct, bool(closed), source, accuracy)
         return n_dropped
 
-    def _set(self, points: FloatArray, closed: bool, source: IntArray) -> None:
+    def _set(
+        self, points: FloatArray, closed: bool, source: IntArray, accuracy: float | None
+    ) -> None:
         points = np.ascontiguousarray(points)
         points.setflags(write=False)
         source.setflags(write=False)
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "closed", closed)
         object.__setattr__(self, "source", source)
+        object.__setattr__(self, "accuracy", accuracy)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -255,7 +269,7 @@ class Contour:
             points[0], points[-1] = self.points[0], self.points[-1]
         # As many as were asked for, even should two of them agree: callers count on it.
         contour = Contour.__new__(Contour)
-        contour._set(points, self.closed, np.arange(n_points))
+        contour._set(points, self.closed, np.arange(n_points), self.accuracy)
         return contour
 
 

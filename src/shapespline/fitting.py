@@ -174,7 +174,7 @@ def _contour(points: ArrayLike | Contour, closed: bool | None) -> Contour:
         return Contour(points, closed)
     if closed is None or closed == points.closed:
         return points
-    return Contour.silently(points.points[points.source], closed)
+    return Contour.silently(points.points[points.source], closed, accuracy=points.accuracy)
 
 
 def _check_choice(name: str, value: object, choices: tuple[str, ...]) -> None:
