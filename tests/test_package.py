@@ -22,7 +22,7 @@ TIERS = [
     {"contour", "knots", "curve", "parametrize", "footpoint", "cpda", "drawing", "reading"},
     {
         "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
-        "ordering", "formats", "plot",
+        "ordering", "formats", "plot", "comparison",
     },
     {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
     {"fitting"},

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 from shapespline._version import __version__
 
 if TYPE_CHECKING:
+    from shapespline.batch import Batch, fit_many
+    from shapespline.comparison import Comparison, compare
     from shapespline.contour import Contour, Frame, Shape
     from shapespline.curve import BSplineCurve
     from shapespline.drawing import Drawing, Fit, Piece, Status
@@ -34,6 +36,8 @@ if TYPE_CHECKING:
 # Public name -> module that defines it.
 _HOME = {
     "BSplineCurve": "curve",
+    "Batch": "batch",
+    "Comparison": "comparison",
     "Contour": "contour",
     "DegenerateContourError": "errors",
     "Drawing": "drawing",
@@ -53,7 +57,9 @@ _HOME = {
     "ShapesplineError": "errors",
     "Status": "drawing",
     "UnknownFormatError": "errors",
+    "compare": "comparison",
     "fit_curve": "fitting",
+    "fit_many": "batch",
     "fit_shape": "reconstruction",
     "initial_curve": "initial",
     "optimize": "optimization",
@@ -65,6 +71,8 @@ __all__ = [
     "LITERAL",
     "SENSIBLE",
     "BSplineCurve",
+    "Batch",
+    "Comparison",
     "Contour",
     "DegenerateContourError",
     "Drawing",
@@ -83,7 +91,9 @@ __all__ = [
     "Status",
     "UnknownFormatError",
     "__version__",
+    "compare",
     "fit_curve",
+    "fit_many",
     "fit_shape",
     "initial_curve",
     "optimize",
