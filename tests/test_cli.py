@@ -1,5 +1,6 @@
 """The command line, as a user meets it: files, exit codes and one line of error."""
 
+import json
 import signal
 import subprocess
 import sys
@@ -128,8 +129,19 @@ def test_bad_outlines(shapespline, tmp_path, content, message):
     ("arguments", "code", "message"),
     [
         (["fit", "nothing.csv", "-o", "x.svg"], 1, "there is no such file"),
-        (["fit", ".", "-o", "x.svg"], 1, "it is a folder; name a file in it"),
-        (["fit", str(HAND), "-o", "."], 1, "it is a folder; name a file in it"),
+        (["fit", ".", "-o", "x.svg"], 1, ". holds no file that can be read"),
+        (["fit", "*.csv", "-o", "x.svg"], 1, "no file matches *.csv"),
+        (["fit", str(HAND), "-o", "."], 1, "say with --format which files to write into it"),
+        (["fit", str(HAND), str(HAND.parent), "-o", "x.svg"], 1, "x.svg is one file for"),
+        (["fit", str(HAND), "-o", "-"], 1, "say with --format what to write"),
+        (["fit", str(HAND.parent), "-o", "-", "-f", "svg"], 1, "standard output takes one"),
+        (["fit", str(HAND.parent), "-o", "out", "-f", "svg", "--plot", "x"], 1, "--plot must name"),
+        (["fit", str(HAND), "-o", "out", "-f", "foo"], 1, "writable endings: .json .svg"),
+        (["fit", str(HAND), "-o", "nowhere/out", "-f", "svg"], 1, "nowhere"),
+        (["convert", str(HAND), "-o", "x.svg"], 1, "holds points, not curves: fit it"),
+        (["compare", str(HAND), "nothing.csv"], 1, "there is no such file"),
+        (["info", "nothing.csv"], 1, "there is no such file"),
+        (["fit", str(HAND), "-o", "x.svg", "--jobs", "0"], 2, "--jobs"),
         (["fit", str(HAND), "-o", "nowhere/x.svg"], 1, "does not exist; create it first"),
         (["fit", str(HAND), "-o", "x.foo"], 1, "writable endings: .json .svg"),
         (["fit", str(HAND), "-o", "x.svg", "--plot", "nowhere/x.png"], 1, "does not exist"),
@@ -219,6 +231,130 @@ def test_the_input_is_never_overwritten(shapespline, tmp_path, option):
     assert code == 1
     assert "is the input itself; choose another name" in err
     assert source.read_bytes() == before
+
+
+@pytest.fixture
+def mixed(tmp_path):
+    """A folder of good files, two broken ones and one of another kind."""
+    folder = tmp_path / "scans"
+    folder.mkdir()
+    for name in ("hand620_closed", "loop500_open", "leaf840_closed"):
+        points = np.loadtxt(DATA / "outlines" / f"{name}.csv", delimiter=",")
+        np.savetxt(folder / f"{name}.csv", points, delimiter=",")
+    np.save(folder / "hand620_closed.npy", points)
+    (folder / "broken.csv").write_text("1,2\n3,x\n")
+    (folder / "empty.png").write_bytes(b"")
+    (folder / "notes.md").write_text("not an outline")
+    return folder
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_folder_with_broken_files(shapespline, tmp_path, mixed, jobs):
+    out = tmp_path / "out"
+    code, said, err = shapespline("fit", mixed, "-o", out, "-f", "json", "-n", 20, "--jobs", jobs)
+    assert code == 1
+    written = {"hand620_closed.csv.json", "hand620_closed.npy.json", "loop500_open.json",
+               "leaf840_closed.json"}  # fmt: skip
+    assert {path.name for path in out.iterdir()} == written
+    assert said.count("\n") == 4
+    lines = sorted(err.splitlines())
+    assert len(lines) == 2
+    assert "broken.csv" in lines[0]
+    assert "line 2" in lines[0]
+    assert "empty.png: the file is empty" in lines[1]
+
+
+def test_jobs_change_no_byte(shapespline, tmp_path, mixed):
+    for jobs in (1, 2):
+        folder = tmp_path / f"out{jobs}"
+        shapespline("fit", mixed / "*.csv", "-o", folder, "-f", "svg", "-n", 20, "-j", jobs)
+    names = sorted(path.name for path in (tmp_path / "out1").iterdir())
+    assert len(names) == 3
+    for name in names:
+        assert (tmp_path / "out1" / name).read_bytes() == (tmp_path / "out2" / name).read_bytes()
+
+
+def test_resume_skips_what_is_done(shapespline, tmp_path):
+    folder = tmp_path / "out"
+    arguments = ("fit", HAND, "-o", folder, "-f", "svg", "-n", 12, "--resume")
+    assert shapespline(*arguments)[1].count("\n") == 1
+    assert shapespline(*arguments)[1] == ""
+    (folder / "hand620_closed.svg").unlink()
+    assert shapespline(*arguments)[1].count("\n") == 1
+
+
+def test_json_for_scripts(shapespline, tmp_path):
+    code, out, err = shapespline("fit", HAND, "-n", 12, "-o", tmp_path / "x.svg", "--json")
+    assert (code, err) == (0, "")
+    record = json.loads(out)
+    assert record["input"] == str(HAND)
+    assert record["output"] == str(tmp_path / "x.svg")
+    (curve,) = record["curves"]
+    assert (curve["control_points"], curve["closed"], curve["status"]) == (12, True, "KEPT")
+    code, out, _ = shapespline("fit", tmp_path / "no.csv", "-o", tmp_path / "y.svg", "--json")
+    assert code == 1
+    assert "there is no such file" in json.loads(out)["error"]
+
+
+def piped(*arguments, given):
+    return subprocess.run(
+        [sys.executable, "-m", "shapespline", *map(str, arguments)],
+        input=given,
+        capture_output=True,
+        check=False,
+    )
+
+
+def test_standard_streams(tmp_path):
+    done = piped("fit", "-", "-o", "-", "-f", "svg", "-n", 12, given=HAND.read_bytes())
+    assert done.returncode == 0
+    assert done.stdout.lstrip().startswith(b"<?xml") or done.stdout.startswith(b"<svg")
+    assert b"1 curve, 12 points" in done.stderr
+    assert piped("fit", HAND, "-o", tmp_path / "x.svg", "-n", 12, given=b"").returncode == 0
+    assert (tmp_path / "x.svg").read_bytes() == done.stdout
+
+
+def test_standard_input_that_is_broken():
+    done = piped("fit", "-", "-o", "-", "-f", "svg", given=b"1,2\n3,x\n")
+    assert (done.returncode, done.stdout) == (1, b"")
+    assert b"line 2" in done.stderr
+
+
+def test_compare_and_info(shapespline, tmp_path):
+    drawing = tmp_path / "hand.json"
+    assert shapespline("fit", HAND, "-t", 0.5, "-o", drawing)[0] == 0
+    (fit,) = ss.read(drawing).fits
+    code, out, _ = shapespline("compare", HAND, drawing, "--json")
+    assert code == 0
+    found = json.loads(out)
+    assert found["hausdorff_distance"] <= 0.5
+    assert found["hausdorff_distance"] >= fit.hausdorff_distance - found["spacing"]
+    code, out, _ = shapespline("compare", HAND, HAND)
+    assert code == 0
+    assert out.count("\n") == 3
+    code, out, _ = shapespline("info", HAND, drawing)
+    assert code == 0
+    lines = out.splitlines()
+    assert "1 outline, 620 points, 1 closed, 0 holes" in lines[0]
+    assert f"{fit.n_stored_points} stored points, fitted to 620 points" in lines[1]
+    code, out, _ = shapespline("info", HAND, "--json")
+    assert json.loads(out)["points"] == 620
+
+
+def test_trace_and_convert(shapespline, tmp_path):
+    picture = DATA / "images" / "fa_leaf_256.png"
+    code, out, _ = shapespline("trace", picture, "-o", tmp_path / "leaf.json")
+    assert code == 0
+    assert "outline" in out
+    shape = ss.read(picture)
+    drawing = ss.read(tmp_path / "leaf.json")
+    for contour, fit in zip(shape, drawing, strict=True):
+        np.testing.assert_array_equal(fit.contour.points, contour.points)
+        assert fit.degree == 1
+        assert fit.max_distance <= 1e-12 * contour.box_diagonal
+    code, _, _ = shapespline("convert", tmp_path / "leaf.json", "-o", tmp_path / "leaf.svg")
+    assert code == 0
+    assert (tmp_path / "leaf.svg").read_text().count("<path") == 1
 
 
 def test_no_argument_shows_the_help(shapespline):

@@ -22,7 +22,7 @@ TIERS = [
     {"contour", "knots", "curve", "parametrize", "footpoint", "cpda", "drawing", "reading"},
     {
         "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
-        "ordering", "formats", "plot", "comparison",
+        "ordering", "formats", "plot", "comparison", "polygons",
     },
     {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
     {"fitting"},
@@ -171,7 +171,7 @@ def test_formats_and_plot_never_fit(name):
         return
     allowed = {
         "contour", "drawing", "curve", "knots", "errors", "typing", "arrays", "_version",
-        "formats", "trace", "channels",
+        "formats", "trace", "channels", "polygons",
     }  # fmt: skip
     for other, _, _ in own_imports(MODULES[name]):
         assert first(other) in allowed, f"{name} imports {other}"

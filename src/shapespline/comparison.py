@@ -12,6 +12,7 @@ from shapespline.curve import BSplineCurve
 from shapespline.drawing import Drawing, Fit
 from shapespline.errors import InvalidInputError
 from shapespline.footpoint import nearest
+from shapespline.polygons import polyline_curve
 
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray
@@ -90,20 +91,14 @@ def _curves(value: Curves, name: str) -> list[BSplineCurve]:
     if isinstance(value, Fit):
         return [value.spline]
     if isinstance(value, Contour):
-        return [_polyline(value)]
+        return [polyline_curve(value)]
     if isinstance(value, Drawing):
         return [fit.spline for fit in value]
     if isinstance(value, Shape):
-        return [_polyline(contour) for contour in value]
+        return [polyline_curve(contour) for contour in value]
     raise InvalidInputError(
         f"{name} must be a Drawing, Fit, Shape, Contour or BSplineCurve, got {type(value).__name__}"
     )
-
-
-def _polyline(contour: Contour) -> BSplineCurve:
-    vertices = contour.polyline
-    knots = np.concatenate([[0.0], np.linspace(0.0, 1.0, len(vertices)), [1.0]])
-    return BSplineCurve(knots, vertices, 1)
 
 
 def _samples(curves: list[BSplineCurve]) -> tuple[FloatArray, float]:

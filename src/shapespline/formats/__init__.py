@@ -23,6 +23,7 @@ from shapespline.errors import (
     UnknownFormatError,
 )
 from shapespline.formats.atomic import check_target, write_atomically
+from shapespline.polygons import polygon_drawing
 
 if TYPE_CHECKING:
     import os
@@ -135,13 +136,16 @@ def check_output(path: str | os.PathLike[str]) -> None:
     _function(Path(path), "encode")
 
 
-def write(path: str | os.PathLike[str], drawing: Drawing | Fit, **options: object) -> None:
-    """Write a drawing or a fit to a file told by its ending; whole or not at all.
+def write(
+    path: str | os.PathLike[str], drawing: Drawing | Fit | Shape | Contour, **options: object
+) -> None:
+    """Write a drawing to a file told by its ending; whole or not at all.
 
     Parameters
     ----------
     path : path-like
-    drawing : Drawing or Fit
+    drawing : Drawing, Fit, Shape or Contour
+        Outlines that have not been fitted are written as polylines.
     **options
         Options of the format, as keyword arguments of the ``encode`` of its module. One that is
         None counts as not given; one that the format does not take is refused.
@@ -156,18 +160,26 @@ def write(path: str | os.PathLike[str], drawing: Drawing | Fit, **options: objec
         If the folder does not exist, the file cannot be written, or the format cannot hold the
         drawing.
     """
-    if isinstance(drawing, Shape | Contour):
-        raise InvalidInputError(
-            f"drawing must be a Drawing or a Fit, got {type(drawing).__name__};"
-            " make one with fit_shape or fit_curve"
-        )
-    if isinstance(drawing, Fit):
-        drawing = Drawing([drawing])
     path = Path(path)
     encode = _function(path, "encode")
     arguments = _checked(path, encode, options)
     check_target(path)
-    write_atomically(path, cast("bytes", encode(drawing, **arguments)))
+    write_atomically(path, cast("bytes", encode(_as_drawing(drawing), **arguments)))
+
+
+def _as_drawing(value: Drawing | Fit | Shape | Contour) -> Drawing:
+    if isinstance(value, Drawing):
+        return value
+    if isinstance(value, Fit):
+        return Drawing([value])
+    if isinstance(value, Contour):
+        value = Shape([value])
+    if isinstance(value, Shape):
+        return polygon_drawing(value)
+    raise InvalidInputError(
+        f"drawing must be a Drawing, Fit, Shape or Contour, got {type(value).__name__};"
+        " make one with fit_shape or fit_curve"
+    )
 
 
 def readable() -> tuple[str, ...]:

@@ -1,0 +1,102 @@
+"""``shapespline trace`` and ``shapespline convert``: files to files without fitting."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import shapespline as ss
+from shapespline.cli import options
+from shapespline.cli.reports import Report, drawing_record
+from shapespline.cli.run_files import Batch, run_files
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+@dataclass(frozen=True)
+class TraceFile:
+    """Write the outlines of one file as they were found, as polylines."""
+
+    reading: options.Reading
+
+    def __call__(self, source: Path, target: Path) -> Report:
+        """Report of the file."""
+        shape = self.reading.outlines(source)
+        ss.write(target, shape)
+        n_points = sum(len(contour) for contour in shape)
+        outlines = "1 outline" if len(shape) == 1 else f"{len(shape)} outlines"
+        return Report(
+            str(source),
+            text=f"{target}: {outlines}, {n_points} points",
+            record={
+                "output": str(target),
+                "outlines": [
+                    {"closed": contour.closed, "points": len(contour)} for contour in shape
+                ],
+                "parents": list(shape.parents),
+            },
+        )
+
+
+@dataclass(frozen=True)
+class ConvertFile:
+    """Write the curves of one file in another format."""
+
+    reading: options.Reading
+
+    def __call__(self, source: Path, target: Path) -> Report:
+        """Report of the file."""
+        drawing = self.reading.read(source)
+        if isinstance(drawing, ss.Shape):
+            raise ss.InvalidInputError(
+                f"{source} holds points, not curves: fit it, or write its outlines with trace"
+            )
+        ss.write(target, drawing)
+        points = sum(fit.n_stored_points for fit in drawing)
+        curves = "1 curve" if len(drawing) == 1 else f"{len(drawing)} curves"
+        return Report(
+            str(source),
+            text=f"{target}: {curves}, {points} points",
+            record={"output": str(target), **drawing_record(drawing)},
+        )
+
+
+@options.with_reading
+def trace(
+    sources: options.Inputs,
+    output: options.Output,
+    ending: options.Format = None,
+    jobs: options.Jobs = 1,
+    scheduler: options.Scheduler = None,
+    resume: options.Resume = False,
+    as_json: options.AsJson = False,
+    stdin_format: options.StdinFormat = "png",
+    *,
+    reading: options.Reading,
+) -> None:
+    """Write the outlines of pictures, or of other files, as polylines: nothing is fitted."""
+    run_files(
+        TraceFile(reading),
+        Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume),
+    )
+
+
+@options.with_reading
+def convert(
+    sources: options.Inputs,
+    output: options.Output,
+    ending: options.Format = None,
+    jobs: options.Jobs = 1,
+    scheduler: options.Scheduler = None,
+    resume: options.Resume = False,
+    as_json: options.AsJson = False,
+    stdin_format: options.StdinFormat = "json",
+    *,
+    reading: options.Reading,
+) -> None:
+    """Write the curves of drawings in another format: the same curves, nothing is fitted."""
+    run_files(
+        ConvertFile(reading),
+        Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume),
+    )

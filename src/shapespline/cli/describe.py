@@ -1,0 +1,106 @@
+"""``shapespline compare`` and ``shapespline info``: what files hold, and how far they differ."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+import shapespline as ss
+from shapespline.cli import options, places
+from shapespline.cli.jobs import run_all
+from shapespline.cli.reports import Report, drawing_record
+
+if TYPE_CHECKING:
+    from shapespline import Drawing, Shape
+
+
+@options.with_reading
+def compare(
+    first: options.Input,
+    second: options.Input,
+    as_json: options.AsJson = False,
+    stdin_format: options.StdinFormat = "csv",
+    *,
+    reading: options.Reading,
+) -> None:
+    """Print how far the curves or outlines of two files lie apart, both ways."""
+    with places.standard_input([first, second], stdin_format) as given:
+        a, b = (reading.read(Path(name)) for name in given)
+    found = ss.compare(a, b)
+    if as_json:
+        record = {**asdict(found), "hausdorff_distance": found.hausdorff_distance}
+        typer.echo(json.dumps({"first": first, "second": second, **record}))
+        return
+    typer.echo(f"{first} to {second}: max {found.forward_max:.6g}, rms {found.forward_rms:.6g}")
+    typer.echo(f"{second} to {first}: max {found.reverse_max:.6g}, rms {found.reverse_rms:.6g}")
+    typer.echo(
+        f"two-sided distance {found.hausdorff_distance:.6g}, sampled every {found.spacing:.3g}"
+    )
+
+
+@options.with_reading
+def info(
+    sources: options.Inputs,
+    as_json: options.AsJson = False,
+    stdin_format: options.StdinFormat = "csv",
+    *,
+    reading: options.Reading,
+) -> None:
+    """Print what every INPUT holds: outlines or curves, points, size, nesting."""
+
+    def describe(source: Path, _: Path) -> Report:
+        held = reading.read(source)
+        record = _record(held)
+        return Report(str(source), text=f"{source}: {_sentence(record)}", record=record)
+
+    n_failed = 0
+    with places.standard_input(sources, stdin_format) as given:
+        found = places.inputs(given)
+        for report in run_all(describe, [(source, source) for source in found]):
+            report.show(as_json, named=len(found) > 1)
+            n_failed += report.error is not None
+    if n_failed:
+        raise typer.Exit(1)
+
+
+def _record(held: Shape | Drawing) -> dict[str, Any]:
+    """What a file holds, for scripts."""
+    import numpy as np
+
+    contours = list(held) if isinstance(held, ss.Shape) else [fit.contour for fit in held]
+    points = np.concatenate([contour.points for contour in contours])
+    low, high = points.min(axis=0), points.max(axis=0)
+    record: dict[str, Any] = {
+        "outlines": len(contours),
+        "closed": sum(contour.closed for contour in contours),
+        "holes": sum(held.is_hole(index) for index in range(len(held))),
+        "points": sum(contour.n_given for contour in contours),
+        "length": sum(contour.length for contour in contours),
+        "box": [*low.tolist(), *high.tolist()],
+    }
+    if not isinstance(held, ss.Shape):
+        record |= drawing_record(held)
+    return record
+
+
+def _sentence(record: dict[str, Any]) -> str:
+    x0, y0, x1, y1 = record["box"]
+    size = f"{x1 - x0:.6g} x {y1 - y0:.6g} at ({x0:.6g}, {y0:.6g}), length {record['length']:.6g}"
+    if "curves" in record:
+        curves = record["curves"]
+        stored = sum(curve["stored_points"] for curve in curves)
+        degrees = sorted({curve["degree"] for curve in curves})
+        kind = f"{len(curves)} curve{'s' * (len(curves) > 1)} of degree {_listed(degrees)}"
+        kind += f", {stored} stored points, fitted to {record['points']} points"
+    else:
+        kind = f"{record['outlines']} outline{'s' * (record['outlines'] > 1)}"
+        kind += f", {record['points']} points"
+    return f"{kind}, {record['closed']} closed, {record['holes']} holes; {size}"
+
+
+def _listed(values: list[int]) -> str:
+    return ", ".join(map(str, values))

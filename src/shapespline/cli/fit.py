@@ -1,0 +1,139 @@
+"""``shapespline fit``."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from pathlib import Path  # noqa: TC003 - typer reads annotations
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import typer
+
+import shapespline as ss
+from shapespline.cli import options
+from shapespline.cli.places import never_the_input
+from shapespline.cli.reports import Report, drawing_record, drawing_remarks, drawing_text
+from shapespline.cli.run_files import Batch, run_files
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+@dataclass(frozen=True)
+class FitFile:
+    """Read, fit, write and draw one file; sent to other processes as it is."""
+
+    reading: options.Reading
+    fitting: dict[str, Any]
+    plot: Path | None
+    many: bool
+
+    def __call__(self, source: Path, target: Path) -> Report:
+        """Report of the file."""
+        shape = self.reading.outlines(source)
+        began = time.perf_counter()
+        drawing = ss.fit_shape(shape, **self.fitting)
+        seconds = time.perf_counter() - began
+        ss.write(target, drawing)
+        picture = self.picture(source)
+        if picture is not None:
+            from shapespline.plot import plot_fit
+
+            plot_fit(drawing, picture)
+        return Report(
+            str(source),
+            text=drawing_text(str(target), drawing, seconds),
+            record={"output": str(target), "seconds": seconds, **drawing_record(drawing)},
+            remarks=drawing_remarks(drawing),
+        )
+
+    def picture(self, source: Path) -> Path | None:
+        """Where the picture of one input goes."""
+        if self.plot is None or not self.many:
+            return self.plot
+        return self.plot / f"{source.name}.png"
+
+    def check(self, sources: Sequence[Path]) -> None:
+        """Raise unless the pictures can be written."""
+        if self.plot is None:
+            return
+        from shapespline.plot import check_picture
+
+        if self.many and not self.plot.is_dir():
+            raise ss.InvalidInputError(
+                f"--plot must name a folder for {len(sources)} inputs, got {self.plot};"
+                " create it first"
+            )
+        for source in sources:
+            picture = self.picture(source)
+            if picture is not None:
+                check_picture(picture)
+                never_the_input(source, picture)
+
+
+@options.with_reading
+def fit(
+    sources: options.Inputs,
+    output: options.Output,
+    ending: options.Format = None,
+    tolerance: Annotated[
+        str | None,
+        typer.Option(
+            "--tolerance",
+            "-t",
+            help="Largest distance between data and curve, both ways: in the unit of the data, or a"
+            " part of the box diagonal such as 0.1%.",
+        ),
+    ] = None,
+    control_points: Annotated[
+        int | None,
+        typer.Option(
+            "--control-points",
+            "-n",
+            help="Control points of each curve (default without a tolerance: as many as pay by"
+            " an information criterion).",
+        ),
+    ] = None,
+    degree: options.Degree = 3,
+    corners: Annotated[
+        Literal["auto", "free", "none"],
+        typer.Option(help="With a tolerance: keep corners, be free to round them, or know none."),
+    ] = "auto",
+    form: Annotated[
+        Literal["pieces", "spline"],
+        typer.Option(help="With a tolerance: lines, Beziers and splines, or one spline."),
+    ] = "pieces",
+    effort: Annotated[
+        Literal["fast", "balanced", "smallest"],
+        typer.Option(help="With a tolerance: how long to search for a smaller curve."),
+    ] = "balanced",
+    plot: Annotated[
+        Path | None,
+        typer.Option(
+            help="Also draw data, control polygon, curve and error as a PNG picture; a folder for"
+            " many inputs."
+        ),
+    ] = None,
+    jobs: options.Jobs = 1,
+    scheduler: options.Scheduler = None,
+    resume: options.Resume = False,
+    as_json: options.AsJson = False,
+    stdin_format: options.StdinFormat = "csv",
+    *,
+    reading: options.Reading,
+) -> None:
+    """Fit B-spline curves to the outlines of every INPUT and write them to files."""
+    batch = Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume)
+    fitting = {
+        "tolerance": tolerance,
+        "n_control_points": control_points,
+        "degree": degree,
+        "corners": None if corners == "none" else corners,
+        "form": form,
+        "effort": effort,
+    }
+
+    def check(found: Sequence[Path]) -> None:
+        FitFile(reading, fitting, plot, many=len(found) > 1).check(found)
+
+    run_files(FitFile(reading, fitting, plot, many=len(sources) > 1), batch, check)

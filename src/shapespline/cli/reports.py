@@ -1,0 +1,90 @@
+"""What a command says of a file that it worked on: for people, or for scripts."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from shapespline import Drawing, Fit
+
+
+def say(message: object) -> None:
+    """One line on standard error."""
+    print(
+        f"shapespline: {' '.join(str(message).split()) or type(message).__name__}", file=sys.stderr
+    )
+
+
+@dataclass
+class Report:
+    """The outcome of one input.
+
+    ``text`` is for people; ``record`` holds the same for scripts; ``error`` is a sentence where
+    the input failed, ``remarks`` what else its user should know.
+    """
+
+    source: str
+    text: str = ""
+    record: dict[str, Any] = field(default_factory=dict)
+    remarks: list[str] = field(default_factory=list)
+    error: str | None = None
+
+    def show(self, as_json: bool, named: bool, on_stderr: bool = False) -> None:
+        """Print; ``named`` says which input an error or a remark concerns, where there are many."""
+        stream = sys.stderr if on_stderr else sys.stdout
+        if as_json:
+            record = {"input": self.source, **self.record, "remarks": self.remarks}
+            if self.error is not None:
+                record["error"] = self.error
+            print(json.dumps(record, ensure_ascii=False), file=stream)
+        elif self.text:
+            print(self.text, file=stream)
+        for message in [*self.remarks, *([self.error] if self.error is not None else [])]:
+            name = f"{self.source}: " if named and self.source not in message else ""
+            say(f"{name}{message}")
+
+
+def drawing_record(drawing: Drawing) -> dict[str, Any]:
+    """Figures of every curve of a drawing, for scripts."""
+    return {"curves": [_fit_record(fit) for fit in drawing], "parents": list(drawing.parents)}
+
+
+def _fit_record(fit: Fit) -> dict[str, Any]:
+    return {
+        "closed": fit.closed,
+        "degree": fit.degree,
+        "data_points": fit.contour.n_given,
+        "control_points": fit.n_control_points,
+        "stored_points": fit.n_stored_points,
+        "pieces": len(fit.pieces),
+        "corners": len(fit.corners),
+        "max_distance": fit.max_distance,
+        "rms_distance": fit.rms_distance,
+        "hausdorff_distance": fit.hausdorff_distance,
+        "tolerance": fit.tolerance,
+        "kept": fit.kept,
+        "status": fit.status.name,
+        "sentence": fit.status.value,
+    }
+
+
+def drawing_text(output: str, drawing: Drawing, seconds: float) -> str:
+    """One line on what was written."""
+    fits = drawing.fits
+    points = sum(fit.n_stored_points for fit in fits)
+    farthest = max(fit.hausdorff_distance for fit in fits)
+    curves = "1 curve" if len(fits) == 1 else f"{len(fits)} curves"
+    return (
+        f"{output}: {curves}, {points} points, data and curve within {farthest:.4g}"
+        f" of each other, {seconds:.2f} s"
+    )
+
+
+def drawing_remarks(drawing: Drawing) -> list[str]:
+    """A line for every fit that keeps less than was asked."""
+    return [
+        f"curve {index}: {fit.status.value}" for index, fit in enumerate(drawing) if not fit.kept
+    ]

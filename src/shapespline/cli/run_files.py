@@ -1,0 +1,66 @@
+"""From the names on the command line to reports: what every command on many files does."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import typer
+
+import shapespline as ss
+from shapespline.cli import places
+from shapespline.cli.jobs import run_all
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from shapespline.cli.reports import Report
+
+
+@dataclass(frozen=True)
+class Batch:
+    """What the user said about inputs, outputs and how to run."""
+
+    given: Sequence[str]
+    output: str
+    ending: str | None
+    stdin_ending: str
+    as_json: bool
+    n_jobs: int = 1
+    scheduler: str | None = None
+    resume: bool = False
+
+
+def run_files(
+    work: Callable[[Path, Path], Report],
+    batch: Batch,
+    check: Callable[[Sequence[Path]], None] = lambda sources: None,
+) -> None:
+    """Work on every input and show each report; ``check`` may refuse the sources before.
+
+    Raises
+    ------
+    typer.Exit
+        With code 1 if an input failed; the others have been written.
+    """
+    to_stream = batch.output == places.STREAM
+    with contextlib.ExitStack() as stack:
+        given = stack.enter_context(places.standard_input(batch.given, batch.stdin_ending))
+        output = stack.enter_context(places.standard_output(batch.output, batch.ending))
+        sources = places.inputs(given)
+        if to_stream and len(sources) > 1:
+            raise ss.InvalidInputError(
+                f"standard output takes one drawing, got {len(sources)} inputs; name a folder"
+            )
+        check(sources)
+        pairs = list(zip(sources, places.outputs(sources, output, batch.ending), strict=True))
+        if batch.resume:
+            pairs = [pair for pair in pairs if not places.is_done(*pair)]
+        n_failed = 0
+        for report in run_all(work, pairs, n_jobs=batch.n_jobs, scheduler=batch.scheduler):
+            report.show(batch.as_json, named=len(sources) > 1, on_stderr=to_stream)
+            n_failed += report.error is not None
+    if n_failed:
+        raise typer.Exit(1)
