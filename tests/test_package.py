@@ -19,10 +19,13 @@ PACKAGE = ROOT / "src" / "shapespline"
 # `formats` stand for all their modules.
 TIERS = [
     {"errors", "typing", "arrays", "_kernels", "_version"},
-    {"contour", "knots", "curve", "parametrize", "footpoint", "cpda", "drawing", "reading"},
+    {
+        "contour", "knots", "curve", "parametrize", "footpoint", "cpda", "drawing", "reading",
+        "nesting",
+    },
     {
         "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
-        "ordering", "formats", "plot", "comparison", "polygons",
+        "ordering", "formats", "plot", "comparison", "polygons", "joining", "exact",
     },
     {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
     {"fitting"},
@@ -171,7 +174,7 @@ def test_formats_and_plot_never_fit(name):
         return
     allowed = {
         "contour", "drawing", "curve", "knots", "errors", "typing", "arrays", "_version",
-        "formats", "trace", "channels", "polygons",
+        "formats", "trace", "channels", "polygons", "nesting", "joining", "exact",
     }  # fmt: skip
     for other, _, _ in own_imports(MODULES[name]):
         assert first(other) in allowed, f"{name} imports {other}"

@@ -62,13 +62,34 @@ def two_sided_distance(curve: BSplineCurve, contour: Contour) -> Distances:
     >>> found.max_distance < 1e-14, round(found.reverse_distance, 3)
     (True, 1.0)
     """
+    middle = _middle(contour)
+    rounding = _rounding(curve, contour)
     # Differences are formed about the middle of the data, so that its place costs no accuracy.
-    middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
-    largest = max(np.abs(contour.points).max(), np.abs(curve.control_points).max())
-    rounding = 8.0 * float(np.finfo(float).eps * largest)
-    centred = type(curve)(curve.knots, curve.control_points - middle, curve.degree, curve.periodic)
-    found = nearest(centred, contour.points - middle)
-    distances_sq = found.distances_sq
+    found = nearest(_moved(curve, -middle), contour.points - middle)
+    return Distances(
+        float(np.sqrt(found.distances_sq.max())) + rounding,
+        float(np.sqrt(found.distances_sq.mean())),
+        reverse_distance(curve, contour),
+        found.parameters,
+    )
+
+
+def distances_at(curve: BSplineCurve, contour: Contour, parameters: FloatArray) -> Distances:
+    """The same where the foot parameter of every point is known: none is searched for."""
+    offset = curve(parameters) - contour.points
+    distances = np.hypot(offset[:, 0], offset[:, 1])
+    return Distances(
+        float(distances.max()) + _rounding(curve, contour),
+        float(np.sqrt((distances**2).mean())),
+        reverse_distance(curve, contour),
+        parameters,
+    )
+
+
+def reverse_distance(curve: BSplineCurve, contour: Contour) -> float:
+    """Certified bound of the distance from the curve to the data polyline."""
+    middle = _middle(contour)
+    centred = _moved(curve, -middle)
     _, reverse, _ = _kernels.curve_deviation(
         centred.knots,
         centred.degree,
@@ -77,9 +98,18 @@ def two_sided_distance(curve: BSplineCurve, contour: Contour) -> Distances:
         RELATIVE_GAP,
         FLOOR * contour.box_diagonal,
     )
-    return Distances(
-        float(np.sqrt(distances_sq.max())) + rounding,
-        float(np.sqrt(distances_sq.mean())),
-        reverse + rounding,
-        found.parameters,
-    )
+    return float(reverse) + _rounding(curve, contour)
+
+
+def _middle(contour: Contour) -> FloatArray:
+    return 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
+
+
+def _moved(curve: BSplineCurve, by: FloatArray) -> BSplineCurve:
+    return type(curve)(curve.knots, curve.control_points + by, curve.degree, curve.periodic)
+
+
+def _rounding(curve: BSplineCurve, contour: Contour) -> float:
+    """A few units in the last place of the largest coordinate."""
+    largest = max(np.abs(contour.points).max(), np.abs(curve.control_points).max())
+    return 8.0 * float(np.finfo(float).eps * largest)

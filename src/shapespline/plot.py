@@ -18,6 +18,7 @@ from PIL import Image
 
 from shapespline.errors import MissingExtraError, UnknownFormatError
 from shapespline.formats.atomic import check_target, write_atomically
+from shapespline.nesting import signed_area
 
 if TYPE_CHECKING:
     import os
@@ -260,17 +261,11 @@ def _errors(fit: Fit) -> _Errors:
     tangent = fit.spline(u, derivative=1)
     left = tangent[:, 0] * offset[:, 1] - tangent[:, 1] * offset[:, 0]
     sign = np.where(left < 0, -1.0, 1.0)
-    if fit.closed and _signed_area(_sampled(fit.spline)) > 0:
+    if fit.closed and signed_area(_sampled(fit.spline)) > 0:
         sign = -sign  # anticlockwise: the inside is on the left
     return _Errors(
         contour.arc_length[source], sign * np.hypot(offset[:, 0], offset[:, 1]), contour.length
     )
-
-
-def _signed_area(points: FloatArray) -> float:
-    """Area inside a polygon, positive if it runs anticlockwise."""
-    x, y = (points - points.mean(axis=0)).T
-    return float(0.5 * np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 
 
 def _draw_errors(axes: Axes, errors: Sequence[_Errors]) -> None:

@@ -21,8 +21,9 @@ from shapespline.corners import LEAST_TURN, find_corners
 from shapespline.distance import Distances, two_sided_distance
 from shapespline.drawing import Piece
 from shapespline.errors import InvalidInputError
+from shapespline.joining import joined, turn_between
 from shapespline.knots import check_degree
-from shapespline.nodes import aligned, one_spline, turn_between
+from shapespline.nodes import aligned
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -364,7 +365,7 @@ def _verified(
 ) -> PiecesResult:
     """The result in the data's unit with its distances measured."""
     pieces = frame.restored(found)
-    spline = one_spline(pieces, degree)
+    spline = joined(pieces, degree)
     sharp = [
         pieces[i].control_points[0]
         for i in range(0 if contour.closed else 1, len(pieces))

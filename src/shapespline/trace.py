@@ -20,8 +20,9 @@ import numpy as np
 from contourpy import LineType, contour_generator
 
 from shapespline.channels import CHANNELS, Channel, pixel_values, rim, validated_pixels
-from shapespline.contour import Contour, Frame, Shape
+from shapespline.contour import Contour, Frame, Shape, nesting_depth
 from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.nesting import containing, signed_area
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -151,23 +152,14 @@ def nested(outlines: Sequence[FloatArray], frame: Frame | None = None) -> Shape:
     >>> nested([square, 4 * square - 1]).parents
     (-1, 0)
     """
-    areas = [_signed_area(points) for points in outlines]
+    areas = [signed_area(points) for points in outlines]
     order = sorted(range(len(outlines)), key=lambda i: -abs(areas[i]))
     polygons = [outlines[i] for i in order]
-    lows = np.array([points.min(axis=0) for points in polygons])
-    highs = np.array([points.max(axis=0) for points in polygons])
-    parents: list[int] = []
-    depths: list[int] = []
-    for child, points in enumerate(polygons):
-        boxed = (lows[:child] <= lows[child]).all(axis=1) & (highs[:child] >= highs[child]).all(1)
-        # Areas fall, so the last container is the smallest one.
-        candidates = np.flatnonzero(boxed)[::-1]
-        parent = next((int(j) for j in candidates if _contains(polygons[j], points[0])), -1)
-        parents.append(parent)
-        depths.append(0 if parent < 0 else depths[parent] + 1)
+    parents = containing(polygons)
+    outers = [nesting_depth(parents, index) % 2 == 0 for index in range(len(polygons))]
     contours = [
-        Contour(points if (areas[i] > 0) == (depth % 2 == 0) else points[::-1], closed=True)
-        for i, points, depth in zip(order, polygons, depths, strict=True)
+        Contour(points[:: 1 if outer == (areas[i] > 0) else -1], closed=True)
+        for i, points, outer in zip(order, polygons, outers, strict=True)
     ]
     return Shape(contours, parents, frame)
 
@@ -274,7 +266,7 @@ def _without_specks(
     """Outlines that enclose at least ``min_area`` square pixels, at least one."""
     if min_area is None:
         min_area = float(np.clip(SPECK_PART * n_pixels, *SPECK_AREAS))
-    areas = [abs(_signed_area(points)) for points in lines]
+    areas = [abs(signed_area(points)) for points in lines]
     kept = [points for points, area in zip(lines, areas, strict=True) if area >= min_area]
     if not kept:
         raise DegenerateContourError(
@@ -284,23 +276,6 @@ def _without_specks(
     return kept
 
 
-def _signed_area(points: FloatArray) -> float:
-    """Shoelace formula, positive if counter-clockwise."""
-    x, y = (points - points[0]).T
-    return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
-
-
 def _length(points: FloatArray) -> float:
     steps = points - np.roll(points, 1, axis=0)
     return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-
-
-def _contains(polygon: FloatArray, point: FloatArray) -> bool:
-    """Even-odd rule: whether a ray to the right crosses the polygon an odd number of times."""
-    ahead = np.roll(polygon, -1, axis=0)
-    x, y = point
-    # Half-open in y, so that a ray through a vertex counts it once.
-    crossed = (polygon[:, 1] > y) != (ahead[:, 1] > y)
-    start, end = polygon[crossed], ahead[crossed]
-    at = start[:, 0] + (y - start[:, 1]) / (end[:, 1] - start[:, 1]) * (end[:, 0] - start[:, 0])
-    return bool(np.count_nonzero(at > x) % 2)

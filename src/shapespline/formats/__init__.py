@@ -1,9 +1,10 @@
 """Read shapes, write drawings: one module and one line of the registry for each format.
 
-A format's module offers ``read(path: Path, *, ...) -> Shape | Drawing`` or
+A format's module offers ``read(path: Path, *, ...) -> Shape | Outlines | Drawing`` or
 ``encode(drawing: Drawing, *, ...) -> bytes`` or both. The keyword-only parameters are the
-options of the format; what is not among them is refused. Modules are imported when a file of
-their kind is met.
+options of the format; what is not among them is refused. Points are returned as a Shape, exact
+curves as Outlines, which become a Drawing here. Modules are imported when a file of their kind is
+met.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from shapespline.errors import (
     ShapesplineError,
     UnknownFormatError,
 )
+from shapespline.exact import Outlines, exact_drawing
 from shapespline.formats.atomic import check_target, write_atomically
 from shapespline.polygons import polygon_drawing
 
@@ -66,9 +68,10 @@ def read(
     *,
     closed: bool | None = None,
     y_down: bool = False,
+    sampling: float | None = None,
     **options: object,
 ) -> Shape | Drawing:
-    """Read a shape (or a drawing written earlier) from a file, its format told by its ending.
+    """Read a shape, or a drawing of curves, from a file, its format told by its ending.
 
     Parameters
     ----------
@@ -78,6 +81,9 @@ def read(
     y_down : bool
         Whether y runs down in the file; it is then turned over within its own bounding box (CSV,
         NumPy).
+    sampling : float, optional
+        How closely the contours of a drawing follow its exact curves, data units; 1e-4 of the
+        size of each if not given. Files of points have no need of it.
     **options
         Further options of the format, as keyword arguments of the ``read`` of its module:
         :mod:`shapespline.formats.image` takes level, polarity, channel, contours, min_area. One
@@ -86,7 +92,7 @@ def read(
     Returns
     -------
     Shape or Drawing
-        A Drawing from the formats that hold fitted curves (JSON), else a Shape.
+        A Drawing from the formats that hold curves (JSON), else a Shape.
 
     Raises
     ------
@@ -113,7 +119,10 @@ def read(
     arguments = _checked(path, reader, given)
     try:
         _check_source(path)
-        return cast("Shape | Drawing", reader(path, **arguments))
+        found = reader(path, **arguments)
+        if isinstance(found, Outlines):
+            return exact_drawing(found, sampling=sampling)
+        return cast("Shape | Drawing", found)
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}") from error
     except ShapesplineError as error:

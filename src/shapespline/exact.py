@@ -1,0 +1,185 @@
+"""Curves that were read rather than fitted: as they are, with a contour sampled on them.
+
+A file of curves holds them exactly. They become a :class:`Drawing` like any other, so that they can
+be written in every format as they are, compared, drawn, and fitted again through the contours.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.arrays import is_number
+from shapespline.contour import Contour
+from shapespline.distance import distances_at
+from shapespline.drawing import Drawing, Fit, Piece, Status
+from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.joining import joined
+from shapespline.nesting import containing
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from shapespline.contour import Frame
+    from shapespline.curve import BSplineCurve
+    from shapespline.typing import FloatArray
+
+# Chordal distance of the samples where the caller names none, of the box diagonal of the outline,
+# and the largest that is taken.
+SAMPLING = 1e-4
+COARSEST = 1e-2
+# Samples of one outline; a caller who wants more has mistaken the unit.
+MOST_SAMPLES = 5_000_000
+
+
+@dataclass(frozen=True)
+class Outlines:
+    """What a file of curves holds: the value that readers of such formats return.
+
+    Attributes
+    ----------
+    curves : sequence of sequences of Piece
+        Each outline as pieces end to end, knots over [0, 1]; one whose last point is its first,
+        to the bit, is closed.
+    frame : Frame, optional
+        The view box.
+    unit : str, optional
+        Of the coordinates, such as "mm".
+    """
+
+    curves: Sequence[Sequence[Piece]]
+    frame: Frame | None = None
+    unit: str | None = None
+
+
+def exact_drawing(outlines: Outlines, *, sampling: float | None = None) -> Drawing:
+    """The outlines as a drawing, nested by containment; open ones lie in nothing.
+
+    Parameters
+    ----------
+    outlines : Outlines
+    sampling : float, optional
+        See `exact_fit`.
+
+    Raises
+    ------
+    InvalidInputError
+        If there is no outline, or a number in it is not usable.
+    """
+    fits = [exact_fit(pieces, sampling=sampling) for pieces in outlines.curves]
+    closed = [index for index, fit in enumerate(fits) if fit.contour.closed]
+    parents = [-1] * len(fits)
+    for index, parent in zip(
+        closed, containing([fits[index].contour.points for index in closed]), strict=True
+    ):
+        parents[index] = closed[parent] if parent >= 0 else -1
+    return Drawing(fits, parents, outlines.frame)
+
+
+def exact_fit(pieces: Sequence[Piece], *, sampling: float | None = None) -> Fit:
+    """A curve as it was read, with a contour sampled on it and distances that are true.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+        End to end, each clamped over [0, 1]; closed if the last point is the first. Those without
+        extent are left out.
+    sampling : float, optional
+        Largest distance between the curve and the contour's polyline, data units: what a fit to
+        the contour adds to its own tolerance. 1e-4 of the box diagonal when not given, never more
+        than 1e-2 of it.
+
+    Returns
+    -------
+    Fit
+        ``method`` is "read", the contour's points lie on the curve, and ``hausdorff_distance`` is
+        the bound of the distance between curve and polyline.
+
+    Raises
+    ------
+    DegenerateContourError
+        If nothing has an extent.
+    InvalidInputError
+        If a coordinate is not usable, or the sampling is not positive or absurdly fine.
+
+    Examples
+    --------
+    >>> bend = Piece("bezier", 2, np.repeat([0.0, 1.0], 3), np.array([[0.0, 0], [1, 2], [2, 0]]))
+    >>> fit = exact_fit([bend], sampling=0.01)
+    >>> fit.n_stored_points, len(fit.contour), fit.hausdorff_distance <= 0.01
+    (3, 11, True)
+    """
+    if sampling is not None and not (is_number(sampling) and 0 < sampling < np.inf):
+        raise InvalidInputError(f"sampling must be a positive length, got {sampling!r}")
+    pieces = tuple(piece for piece in pieces if np.ptp(piece.control_points, axis=0).any())
+    if not pieces:
+        raise DegenerateContourError("the outline is a single point: there is no curve")
+    spline = joined(pieces)
+    contour, parameters = sampled(spline, sampling)
+    distances = distances_at(spline, contour, parameters)
+    bound = distances.hausdorff_distance
+    return Fit(
+        spline=spline,
+        contour=contour,
+        parameters=parameters[contour.source],
+        max_distance=distances.max_distance,
+        rms_distance=distances.rms_distance,
+        hausdorff_distance=bound,
+        tolerance=bound,
+        status=Status.KEPT.saying(f"the curve as it was read, sampled to {bound:.3g}"),
+        history=(),
+        method="read",
+        sections=pieces if len(pieces) > 1 else (),
+    )
+
+
+def sampled(spline: BSplineCurve, sampling: float | None = None) -> tuple[Contour, FloatArray]:
+    """Points on a curve so dense that the chords stay within ``sampling``, and their parameters.
+
+    Every Bezier piece is cut at equal steps of its parameter. A chord over a step h strays from
+    the curve by no more than h^2 / 8 times the largest second derivative, and that is bounded by
+    the second differences of the control points.
+
+    References
+    ----------
+    G. Wang, "The subdivision method for finding the intersection between two Bezier curves or
+    surfaces", Zhejiang University Journal, 1984.
+    """
+    beziers, breakpoints = spline.beziers()
+    diagonal = float(np.hypot(*np.ptp(beziers.reshape(-1, 2), axis=0)))
+    step = min(SAMPLING * diagonal if sampling is None else sampling, COARSEST * diagonal)
+    p = spline.degree
+    if p == 1:
+        counts = np.ones(len(beziers), dtype=np.int64)
+    else:
+        second = np.hypot(*np.moveaxis(np.diff(beziers, 2, axis=1), 2, 0)).max(axis=1)
+        wanted = np.sqrt(p * (p - 1) * second / (8 * step))
+        if not wanted.sum() <= MOST_SAMPLES:
+            raise InvalidInputError(
+                f"sampling asks for {wanted.sum():.2g} points on one outline, got {sampling!r} for"
+                f" a size of {diagonal:.6g}; raise it"
+            )
+        counts = np.maximum(1, np.ceil(wanted)).astype(np.int64)
+    inner = [
+        np.linspace(begin, end, count, endpoint=False)
+        for (begin, end), count in zip(pairwise(breakpoints.tolist()), counts, strict=True)
+    ]
+    parameters = np.concatenate([*inner, breakpoints[-1:]])
+    points = spline(parameters)
+    # Where pieces meet the ends are known exactly.
+    starts = np.concatenate([[0], np.cumsum(counts)])
+    points[starts[:-1]], points[-1] = beziers[:, 0], beziers[-1, -1]
+    contour = _contour(points, closed=bool((points[0] == points[-1]).all()))
+    first = np.unique(contour.source, return_index=True)[1]
+    return contour, parameters[first]
+
+
+def _contour(points: FloatArray, closed: bool) -> Contour:
+    if closed:
+        with suppress(DegenerateContourError):  # two points: a line to and fro, left open
+            return Contour.silently(points, closed=True)
+    return Contour.silently(points, closed=False)
