@@ -198,6 +198,20 @@ class BSplineCurve:
         extrapolate = "periodic" if self.periodic else True
         return BSpline(self.knots, self.coefficients, self.degree, extrapolate=extrapolate)
 
+    def clamped(self) -> BSplineCurve:
+        """The same curve with clamped knots: of a periodic one its exact open form.
+
+        Examples
+        --------
+        >>> from shapespline.knots import periodic_knots
+        >>> ring = BSplineCurve(
+        ...     periodic_knots(4, 2), [(1, 0), (0, 1), (-1, 0), (0, -1)], 2, periodic=True
+        ... )
+        >>> ring.clamped().n_control_points, bool((ring([0.3]) == ring.clamped()([0.3])).all())
+        (6, True)
+        """
+        return _clamped(self.knots, self.coefficients, self.degree) if self.periodic else self
+
     @classmethod
     def from_scipy(cls, spline: BSpline) -> BSplineCurve:
         """A plane ``scipy.interpolate.BSpline`` as a BSplineCurve.
@@ -227,16 +241,21 @@ class BSplineCurve:
             and np.array_equal(coefficients[m:], coefficients[:degree])
         ):
             return cls(knots, coefficients[:m], degree, periodic=True)
-        begin, end = knots[degree], knots[n_coefficients]
-        for at in (begin, end):
-            missing = degree - int(np.count_nonzero(knots == at))
-            for _ in range(max(missing, 0)):
-                knots, coefficients = _with_knot(knots, coefficients, degree, at)
-        first = int(np.searchsorted(knots, begin, side="right")) - degree
-        last = int(np.searchsorted(knots, end, side="left"))
-        inner = knots[first + degree : last]
-        knots = np.concatenate([np.full(degree + 1, begin), inner, np.full(degree + 1, end)])
-        return cls(knots, coefficients[first - 1 : last], degree)
+        return _clamped(knots, coefficients, degree)
+
+
+def _clamped(knots: FloatArray, coefficients: FloatArray, degree: int) -> BSplineCurve:
+    """The curve over the domain of its knots, clamped by knot insertion at both ends."""
+    begin, end = knots[degree], knots[len(coefficients)]
+    for at in (begin, end):
+        missing = degree - int(np.count_nonzero(knots == at))
+        for _ in range(max(missing, 0)):
+            knots, coefficients = _with_knot(knots, coefficients, degree, at)
+    first = int(np.searchsorted(knots, begin, side="right")) - degree
+    last = int(np.searchsorted(knots, end, side="left"))
+    inner = knots[first + degree : last]
+    knots = np.concatenate([np.full(degree + 1, begin), inner, np.full(degree + 1, end)])
+    return BSplineCurve(knots, coefficients[first - 1 : last], degree)
 
 
 def _differentiated(
