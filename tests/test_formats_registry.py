@@ -30,11 +30,11 @@ def fake(monkeypatch):
     module = ModuleType("shapespline.formats.fake")
     module.calls = []
 
-    def encode(drawing, *, unit="px", scale=1.0):
-        module.calls.append((drawing, unit, scale))
+    def encode(drawing, *, colour="black", digits=17):
+        module.calls.append((drawing, colour, digits))
         if isinstance(drawing, BaseException):
             raise drawing
-        return f"{drawing} {scale:g} {unit}".encode()
+        return f"{drawing} {digits} {colour}".encode()
 
     def bare(path):
         raise AssertionError("must not be read")
@@ -44,6 +44,7 @@ def fake(monkeypatch):
     entry = Format("fake", (".fake",), "fake", reads=True, writes=True)
     monkeypatch.setattr(formats, "FORMATS", (*formats.FORMATS, entry))
     monkeypatch.setattr(formats, "_as_drawing", lambda value: value)  # words will do here
+    monkeypatch.setattr(formats, "in_unit", lambda value, *_: value)
     return module
 
 
@@ -91,8 +92,8 @@ def test_options_are_checked_by_name(tmp_path, fake):
         read(tmp_path / "leaf.png", closed=True)
     with pytest.raises(InvalidInputError, match="take no options"):
         read(tmp_path / "leaf.fake", y_down=True)
-    with pytest.raises(InvalidInputError, match=r"units .* take unit, scale"):
-        write(tmp_path / "leaf.fake", "leaf", units="mm")
+    with pytest.raises(InvalidInputError, match=r"colours .* take colour, digits"):
+        write(tmp_path / "leaf.fake", "leaf", colours="red")
     assert fake.calls == []
     assert read(path, level=None, min_area=None).longest.closed  # None: not given
 
@@ -130,8 +131,8 @@ def test_outlines_are_read_without_the_picture_library(tmp_path):
 
 def test_write_encodes_with_the_options_given(tmp_path, fake):
     path = tmp_path / "leaf.FAKE"
-    write(path, "leaf", unit="mm", scale=None)
-    assert path.read_bytes() == b"leaf 1 mm"
+    write(path, "leaf", colour="red", digits=None)
+    assert path.read_bytes() == b"leaf 17 red"
     assert names(tmp_path) == ["leaf.FAKE"]
 
 

@@ -277,12 +277,19 @@ def test_a_closed_path_ends_where_it_began(tmp_path):
             assert segments[-1].start == segments[-1].end
 
 
-def test_size_and_unit():
-    root = root_of(subject.encode(Drawing([fit_of(wave())], frame=FRAME), unit="mm", scale=0.1))
-    assert (root.get("width"), root.get("height")) == ("4mm", "3mm")
+@pytest.mark.parametrize(
+    ("unit", "width", "height"),
+    [
+        (None, "40", "30"),
+        ("px", "40px", "30px"),
+        ("mm", "40mm", "30mm"),
+        ("m", "40000mm", "30000mm"),
+    ],
+)
+def test_the_unit_sizes_the_page(unit, width, height):
+    root = root_of(subject.encode(Drawing([fit_of(wave())], frame=FRAME, unit=unit)))
+    assert (root.get("width"), root.get("height")) == (width, height)
     assert root.get("viewBox") == "0 0 40 30"
-    root = root_of(subject.encode(Drawing([fit_of(wave())], frame=FRAME)))
-    assert (root.get("width"), root.get("height")) == ("40", "30")
 
 
 def test_same_drawing_same_bytes():
@@ -296,17 +303,10 @@ def test_numbers_read_back_to_the_same_double():
     assert subject._number(np.float64(3.0)) == "3"
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"stroke_width": 0.0}, "stroke_width must be a positive number, got 0.0"),
-        ({"scale": float("nan")}, "scale must be a positive number, got nan"),
-        ({"unit": "furlong"}, "unit must be one of px, mm"),
-    ],
-)
-def test_options_out_of_range(options, message):
-    with pytest.raises(InvalidInputError, match=message):
-        subject.encode(nested(), **options)
+@pytest.mark.parametrize("width", [0.0, -1.0, float("nan"), "thin"])
+def test_a_stroke_width_out_of_range(width):
+    with pytest.raises(InvalidInputError, match="stroke_width must be a positive number, got"):
+        subject.encode(nested(), stroke_width=width)
 
 
 def test_frames_and_nestings_that_make_no_sense():

@@ -18,7 +18,7 @@ PACKAGE = ROOT / "src" / "shapespline"
 # Lowest first; a module imports from its own tier and from those before it. `solvers` and
 # `formats` stand for all their modules.
 TIERS = [
-    {"errors", "typing", "arrays", "_kernels", "_version"},
+    {"errors", "typing", "arrays", "units", "_kernels", "_version"},
     {
         "contour", "knots", "curve", "parametrize", "footpoint", "cpda", "drawing", "reading",
         "nesting",
@@ -26,6 +26,7 @@ TIERS = [
     {
         "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
         "ordering", "formats", "plot", "comparison", "polygons", "joining", "exact",
+        "scaling",
     },
     {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
     {"fitting"},
@@ -175,6 +176,7 @@ def test_formats_and_plot_never_fit(name):
     allowed = {
         "contour", "drawing", "curve", "knots", "errors", "typing", "arrays", "_version",
         "formats", "trace", "channels", "polygons", "nesting", "joining", "exact",
+        "units", "scaling",
     }  # fmt: skip
     for other, _, _ in own_imports(MODULES[name]):
         assert first(other) in allowed, f"{name} imports {other}"

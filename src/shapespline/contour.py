@@ -16,6 +16,7 @@ import numpy as np
 
 from shapespline.arrays import float_array, is_number
 from shapespline.errors import DegenerateContourError, DroppedPointsWarning, InvalidInputError
+from shapespline.units import checked_unit
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -327,6 +328,8 @@ class Shape:
         For each contour the index of the smallest contour around it, -1 for none (default: none).
     frame : Frame, optional
         The image or view box that the contours were read from.
+    unit : str, optional
+        Of the coordinates, one of :data:`shapespline.units.UNITS`, if known.
 
     Examples
     --------
@@ -340,12 +343,14 @@ class Shape:
     contours: tuple[Contour, ...]
     parents: tuple[int, ...]
     frame: Frame | None
+    unit: str | None
 
     def __init__(
         self,
         contours: Sequence[Contour],
         parents: Sequence[int] | None = None,
         frame: Frame | None = None,
+        unit: str | None = None,
     ) -> None:
         contours = tuple(contours)
         if not contours:
@@ -355,6 +360,7 @@ class Shape:
         object.__setattr__(self, "contours", contours)
         object.__setattr__(self, "parents", checked_parents(parents, len(contours)))
         object.__setattr__(self, "frame", frame)
+        object.__setattr__(self, "unit", checked_unit(unit))
 
     def __len__(self) -> int:
         return len(self.contours)

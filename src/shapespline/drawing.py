@@ -14,6 +14,7 @@ import numpy as np
 
 from shapespline.contour import checked_parents, nesting_depth
 from shapespline.errors import InvalidInputError
+from shapespline.units import checked_unit
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -222,14 +223,21 @@ class Drawing:
         For each fit the index of the one directly around it, -1 for none (default: none).
     frame : Frame, optional
         The image or view box of the source.
+    unit : str, optional
+        Of the coordinates, one of :data:`shapespline.units.UNITS`, if known.
     """
 
     fits: tuple[Fit, ...]
     parents: tuple[int, ...]
     frame: Frame | None
+    unit: str | None
 
     def __init__(
-        self, fits: Sequence[Fit], parents: Sequence[int] | None = None, frame: Frame | None = None
+        self,
+        fits: Sequence[Fit],
+        parents: Sequence[int] | None = None,
+        frame: Frame | None = None,
+        unit: str | None = None,
     ) -> None:
         fits = (fits,) if isinstance(fits, Fit) else tuple(fits)
         if not fits:
@@ -240,6 +248,7 @@ class Drawing:
         object.__setattr__(self, "fits", fits)
         object.__setattr__(self, "parents", checked_parents(parents, len(fits)))
         object.__setattr__(self, "frame", frame)
+        object.__setattr__(self, "unit", checked_unit(unit))
 
     def __len__(self) -> int:
         return len(self.fits)

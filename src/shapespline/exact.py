@@ -48,7 +48,7 @@ class Outlines:
     frame : Frame, optional
         The view box.
     unit : str, optional
-        Of the coordinates, such as "mm".
+        Of the coordinates, one of :data:`shapespline.units.UNITS`, if known.
     """
 
     curves: Sequence[Sequence[Piece]]
@@ -77,7 +77,7 @@ def exact_drawing(outlines: Outlines, *, sampling: float | None = None) -> Drawi
         closed, containing([fits[index].contour.points for index in closed]), strict=True
     ):
         parents[index] = closed[parent] if parent >= 0 else -1
-    return Drawing(fits, parents, outlines.frame)
+    return Drawing(fits, parents, outlines.frame, outlines.unit)
 
 
 def exact_fit(pieces: Sequence[Piece], *, sampling: float | None = None) -> Fit:

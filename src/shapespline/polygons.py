@@ -38,7 +38,8 @@ def polygon_drawing(shape: Shape) -> Drawing:
     >>> fit.n_stored_points, fit.closed, fit.max_distance < 1e-14
     (4, True, True)
     """
-    return Drawing([_polygon_fit(contour) for contour in shape], shape.parents, shape.frame)
+    fits = [_polygon_fit(contour) for contour in shape]
+    return Drawing(fits, shape.parents, shape.frame, shape.unit)
 
 
 def _polygon_fit(contour: Contour) -> Fit:

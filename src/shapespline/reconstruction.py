@@ -42,7 +42,7 @@ def fit_shape(
     Returns
     -------
     Drawing
-        One fit per contour, in their order, with their nesting and frame.
+        One fit per contour, in their order, with their nesting, frame and unit.
 
     Raises
     ------
@@ -84,4 +84,4 @@ def fit_shape(
                 raise
             raise type(error)(f"contour {index} of {len(shape)}: {error}") from error
         fits.append(fit)
-    return Drawing(fits, shape.parents, shape.frame)
+    return Drawing(fits, shape.parents, shape.frame, shape.unit)

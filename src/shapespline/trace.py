@@ -23,6 +23,7 @@ from shapespline.channels import CHANNELS, Channel, pixel_values, rim, validated
 from shapespline.contour import Contour, Frame, Shape, nesting_depth
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.nesting import containing, signed_area
+from shapespline.units import PIXEL
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -128,10 +129,13 @@ def trace_image(
     lines = _level_lines(field)
     if contours == "longest":
         lines = sorted(lines, key=_length)[-1:]
-    return nested(_without_specks(lines, min_area, height * width), Frame(0, 0, width, height))
+    frame = Frame(0, 0, width, height)
+    return nested(_without_specks(lines, min_area, height * width), frame, PIXEL)
 
 
-def nested(outlines: Sequence[FloatArray], frame: Frame | None = None) -> Shape:
+def nested(
+    outlines: Sequence[FloatArray], frame: Frame | None = None, unit: str | None = None
+) -> Shape:
     """Make a shape of outlines that do not cross: sorted by area, oriented, nesting found.
 
     Parameters
@@ -139,6 +143,7 @@ def nested(outlines: Sequence[FloatArray], frame: Frame | None = None) -> Shape:
     outlines : sequence of ndarray, shape (n_i, 2)
         Vertices of simple polygons, none crossing another.
     frame : Frame, optional
+    unit : str, optional
 
     Returns
     -------
@@ -161,7 +166,7 @@ def nested(outlines: Sequence[FloatArray], frame: Frame | None = None) -> Shape:
         Contour(points[:: 1 if outer == (areas[i] > 0) else -1], closed=True)
         for i, points, outer in zip(order, polygons, outers, strict=True)
     ]
-    return Shape(contours, parents, frame)
+    return Shape(contours, parents, frame, unit)
 
 
 def otsu_level(values: NDArray[Any]) -> float:

@@ -89,7 +89,8 @@ class Reading:
         shape = self.read(path)
         if isinstance(shape, ss.Shape):
             return shape
-        return ss.Shape([fit.contour for fit in shape], shape.parents, shape.frame)
+        contours = [fit.contour for fit in shape]
+        return ss.Shape(contours, shape.parents, shape.frame, shape.unit)
 
 
 def with_reading(command: Callable[..., Any]) -> Callable[..., Any]:

@@ -2,7 +2,8 @@
 
 A format's module offers ``read(path: Path, *, ...) -> Shape | Outlines | Drawing`` or
 ``encode(drawing: Drawing, *, ...) -> bytes`` or both. The keyword-only parameters are the
-options of the format; what is not among them is refused. Points are returned as a Shape, exact
+options of the format; what is not among them is refused. Units and scale are no such options:
+they are seen to here, and a drawing says its own ``unit``. Points are returned as a Shape, exact
 curves as Outlines, which become a Drawing here. Modules are imported when a file of their kind is
 met.
 """
@@ -26,6 +27,7 @@ from shapespline.errors import (
 from shapespline.exact import Outlines, exact_drawing
 from shapespline.formats.atomic import check_target, write_atomically
 from shapespline.polygons import polygon_drawing
+from shapespline.scaling import in_unit
 
 if TYPE_CHECKING:
     import os
@@ -68,6 +70,9 @@ def read(
     *,
     closed: bool | None = None,
     y_down: bool = False,
+    unit: str | None = None,
+    scale: float | None = None,
+    dpi: float | None = None,
     sampling: float | None = None,
     **options: object,
 ) -> Shape | Drawing:
@@ -81,9 +86,16 @@ def read(
     y_down : bool
         Whether y runs down in the file; it is then turned over within its own bounding box (CSV,
         NumPy).
+    unit : str, optional
+        The unit wanted, such as "mm" or "in". Coordinates are converted if the unit of the file is
+        known (DXF, most SVG files), otherwise they are in this unit from now on.
+    scale : float, optional
+        Further factor for all coordinates; of a picture, the units that a pixel measures.
+    dpi : float, optional
+        Pixels per inch, for pictures and other files in pixels; the unit is "mm" if none is named.
     sampling : float, optional
         How closely the contours of a drawing follow its exact curves, data units; 1e-4 of the
-        size of each if not given. Files of points have no need of it.
+        size of each if not given. Counts after unit and scale. Files of points have no need of it.
     **options
         Further options of the format, as keyword arguments of the ``read`` of its module:
         :mod:`shapespline.formats.image` takes level, polarity, channel, contours, min_area. One
@@ -120,9 +132,10 @@ def read(
     try:
         _check_source(path)
         found = reader(path, **arguments)
-        if isinstance(found, Outlines):
-            return exact_drawing(found, sampling=sampling)
-        return cast("Shape | Drawing", found)
+        in_wanted = in_unit(cast("Shape | Outlines | Drawing", found), unit, scale, dpi)
+        if isinstance(in_wanted, Outlines):
+            return exact_drawing(in_wanted, sampling=sampling)
+        return in_wanted
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}") from error
     except ShapesplineError as error:
@@ -146,7 +159,12 @@ def check_output(path: str | os.PathLike[str]) -> None:
 
 
 def write(
-    path: str | os.PathLike[str], drawing: Drawing | Fit | Shape | Contour, **options: object
+    path: str | os.PathLike[str],
+    drawing: Drawing | Fit | Shape | Contour,
+    *,
+    unit: str | None = None,
+    scale: float | None = None,
+    **options: object,
 ) -> None:
     """Write a drawing to a file told by its ending; whole or not at all.
 
@@ -155,6 +173,11 @@ def write(
     path : path-like
     drawing : Drawing, Fit, Shape or Contour
         Outlines that have not been fitted are written as polylines.
+    unit : str, optional
+        The unit of the file, such as "mm" or "in". Coordinates are converted if the unit of the
+        drawing is known, otherwise they are in this unit.
+    scale : float, optional
+        Further factor for all coordinates; of a traced picture, the units that a pixel measures.
     **options
         Options of the format, as keyword arguments of the ``encode`` of its module. One that is
         None counts as not given; one that the format does not take is refused.
@@ -173,7 +196,8 @@ def write(
     encode = _function(path, "encode")
     arguments = _checked(path, encode, options)
     check_target(path)
-    write_atomically(path, cast("bytes", encode(_as_drawing(drawing), **arguments)))
+    held = in_unit(_as_drawing(drawing), unit, scale)
+    write_atomically(path, cast("bytes", encode(held, **arguments)))
 
 
 def _as_drawing(value: Drawing | Fit | Shape | Contour) -> Drawing:

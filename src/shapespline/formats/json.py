@@ -4,11 +4,13 @@ Version 1 is one object::
 
     format   "shapespline"
     version  1
+    unit     of all lengths, such as "mm", or null
     frame    {x, y, width, height} or null
     parents  for each fit the index of the one directly around it, -1 for none
     fits     objects with the fields of shapespline.drawing.Fit:
         spline       {degree, periodic, knots, control_points: distinct, as [x, y]}
-        contour      {closed, points: as [x, y], source: null if each point stands for itself}
+        contour      {closed, points: as [x, y], source: null if each point stands for itself,
+                     accuracy: null if not known}
         parameters   one for each point that was given
         max_distance, rms_distance, hausdorff_distance, tolerance
         status       {name, value}
@@ -44,6 +46,7 @@ from shapespline.formats.json_values import (
     checked_points,
     checked_string,
 )
+from shapespline.units import UNITS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,7 +60,7 @@ LINE_LENGTH = 100
 DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
 FIT_FIELDS += ("status", "history", "method", "sections", "outliers")
-DRAWING_FIELDS = ("format", "version", "frame", "parents", "fits")
+DRAWING_FIELDS = ("format", "version", "unit", "frame", "parents", "fits")
 COUNTS = ("iteration", "evaluations")  # the columns of the history that hold integers
 KINDS = ("line", "bezier", "spline")
 KNOWN = (Status.KEPT, Status.EXCEEDED, Status.BUDGET, Status.CANCELLED)
@@ -97,6 +100,7 @@ def encode(drawing: Drawing) -> bytes:
     document = {
         "format": FORMAT,
         "version": VERSION,
+        "unit": drawing.unit,
         "frame": None if frame is None else _numbers_of(frame._asdict(), "frame"),
         "parents": list(drawing.parents),
         "fits": [_fit_document(fit) for fit in drawing],
@@ -152,6 +156,7 @@ def _fit_document(fit: Fit) -> dict[str, Any]:
             "closed": contour.closed,
             "points": contour.points.tolist(),
             "source": None if each_itself else contour.source.tolist(),
+            "accuracy": contour.accuracy,
         },
         "parameters": _finite(fit.parameters, "parameters"),
         **_numbers_of({name: getattr(fit, name) for name in DISTANCES}, "fit"),
@@ -254,7 +259,11 @@ def _drawing(document: object) -> Drawing:
     if frame is not None:
         sides = checked_object(frame, "frame", Frame._fields)
         frame = Frame(*(checked_number(sides[name], f"frame.{name}") for name in Frame._fields))
-    return Drawing([_fit(item, f"fits[{i}]") for i, item in enumerate(items)], parents, frame)
+    unit = fields["unit"]
+    if unit is not None and unit not in UNITS:
+        raise FormatError(f"unit must be null or one of {', '.join(UNITS)}, found {unit!r}")
+    fits = [_fit(item, f"fits[{i}]") for i, item in enumerate(items)]
+    return Drawing(fits, parents, frame, unit)
 
 
 def _fit(value: object, where: str) -> Fit:
@@ -321,12 +330,17 @@ def _sections(value: object, where: str) -> tuple[Piece, ...]:
 
 def _contour(value: object, where: str) -> Contour:
     """Return the contour of the points as they were given, so that ``source`` comes back too."""
-    fields = checked_object(value, where, ("closed", "points", "source"))
+    fields = checked_object(value, where, ("closed", "points", "source", "accuracy"))
     points = checked_points(fields["points"], f"{where}.points")
     source = list(range(len(points)))
     if fields["source"] is not None:
         source = checked_indices(fields["source"], f"{where}.source", 0, len(points))
-    contour = Contour.silently(points[source], checked_boolean(fields["closed"], f"{where}.closed"))
+    accuracy = fields["accuracy"]
+    contour = Contour.silently(
+        points[source],
+        checked_boolean(fields["closed"], f"{where}.closed"),
+        accuracy=None if accuracy is None else checked_number(accuracy, f"{where}.accuracy"),
+    )
     if contour.source.tolist() != source or len(contour) != len(points):
         raise FormatError(f"{where}: source does not lead to the points, or two neighbours agree")
     return contour

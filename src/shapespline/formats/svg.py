@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.arrays import is_number
 from shapespline.contour import Frame
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats.cubics import as_cubics, groups, is_straight, turning_points
+from shapespline.units import MILLIMETRES, PIXEL
 
 if TYPE_CHECKING:
     from shapespline.drawing import Drawing
     from shapespline.typing import FloatArray
 
-Unit = Literal["px", "mm", "cm", "in", "pt", "pc", "Q"]
-UNITS = ("px", "mm", "cm", "in", "pt", "pc", "Q")
+# Units that CSS knows; the page of a drawing in another one is sized in millimetres.
+PAGE_UNITS = (PIXEL, "mm", "cm", "in", "pt", "pc", "Q")
 # Of the longer side: the border around a drawing without a frame, and the width of a stroke.
 MARGIN, STROKE = 0.02, 0.0025
 
@@ -38,8 +40,6 @@ def encode(
     *,
     fill: bool = True,
     stroke_width: float | None = None,
-    unit: Unit | None = None,
-    scale: float = 1.0,
 ) -> bytes:
     """Text of an SVG file with one path for each outline and its holes.
 
@@ -52,14 +52,11 @@ def encode(
     Parameters
     ----------
     drawing : Drawing
+        Its unit sizes the page; without one its numbers are pixels.
     fill : bool
         Fill closed curves; otherwise they are stroked like open ones.
     stroke_width : float, optional
         Width of strokes, data units; 1/400 of the longer side of the view box if not given.
-    unit : {"px", "mm", "cm", "in", "pt", "pc", "Q"}, optional
-        What one data unit times ``scale`` is on paper; pixels if not given.
-    scale : float
-        Units for each data unit. It changes the size of the page, not the coordinates.
 
     Returns
     -------
@@ -96,7 +93,8 @@ def encode(
     >>> print(text.split(' d="')[1].split('"')[0])
     M0 6C0 2 8 2 8 6
     """
-    _check_options(stroke_width, unit, scale)
+    if stroke_width is not None and not (is_number(stroke_width) and 0 < stroke_width < math.inf):
+        raise InvalidInputError(f"stroke_width must be a positive number, got {stroke_width!r}")
     paths = groups(drawing)
     pieces = [as_cubics(fit) for fit in drawing]
     placement = _placement(drawing.frame, pieces, stroke_width or 0.0)
@@ -106,8 +104,8 @@ def encode(
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         '<svg xmlns="http://www.w3.org/2000/svg"'
-        f' width="{_number(scale * box.width)}{unit or ""}"'
-        f' height="{_number(scale * box.height)}{unit or ""}"'
+        f' width="{_page_length(box.width, drawing.unit)}"'
+        f' height="{_page_length(box.height, drawing.unit)}"'
         f' viewBox="{" ".join(map(_number, box))}">',
     ]
     for group in paths:
@@ -121,12 +119,6 @@ def encode(
     return "\n".join(lines).encode("utf-8")
 
 
-def _check_options(stroke_width: float | None, unit: str | None, scale: float) -> None:
-    for name, value in (("stroke_width", stroke_width), ("scale", scale)):
-        if value is not None and not (math.isfinite(value) and value > 0):
-            raise InvalidInputError(f"{name} must be a positive number, got {value!r}")
-    if unit is not None and unit not in UNITS:
-        raise InvalidInputError(f"unit must be one of {', '.join(UNITS)}, got {unit!r}")
 
 
 # Placement
@@ -170,6 +162,13 @@ def _number(value: float) -> str:
     """Shortest decimal that reads back to the same double."""
     text = repr(float(value) + 0.0)  # no negative zero
     return text.removesuffix(".0")
+
+
+def _page_length(length: float, unit: str | None) -> str:
+    """A side of the page, in a unit that CSS knows."""
+    if unit is not None and unit not in PAGE_UNITS:
+        length, unit = length * MILLIMETRES[unit], "mm"
+    return f"{_number(length)}{unit or ''}"
 
 
 def _rounded(value: float) -> float:
