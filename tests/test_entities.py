@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -16,7 +18,7 @@ from shapespline.formats.entities import entities
 def check(fit, found):
     """End to end, and never off the curve that went in."""
     size = fit.contour.box_diagonal
-    for a, b in zip(found, found[1:], strict=False):
+    for a, b in itertools.pairwise(found):
         assert_array_equal(a.curve.control_points[-1], b.curve.control_points[0])
     if fit.closed:
         assert_array_equal(found[-1].curve.control_points[-1], found[0].curve.control_points[0])

@@ -119,8 +119,6 @@ def encode(
     return "\n".join(lines).encode("utf-8")
 
 
-
-
 # Placement
 
 
