@@ -167,6 +167,22 @@ class BSplineCurve:
         _kernels.bezier_pieces(self.knots, self.degree, self.coefficients, points, breakpoints)
         return BezierPieces(points.reshape(n_pieces, self.degree + 1, 2), breakpoints)
 
+    def clamped(self) -> BSplineCurve:
+        """The same curve with knots that are clamped at the ends of its domain.
+
+        Examples
+        --------
+        >>> from shapespline.knots import periodic_knots
+        >>> ring = BSplineCurve(periodic_knots(3, 2), [(0, 0), (4, 0), (0, 4)], 2, periodic=True)
+        >>> ring.clamped().control_points[[0, -1]].tolist()
+        [[2.0, 0.0], [2.0, 0.0]]
+        """
+        if not self.periodic:
+            return self
+        knots, points = clamped_ends(self.knots, self.coefficients, self.degree)
+        points[-1] = points[0]  # knot insertion may miss it by a rounding
+        return BSplineCurve(knots, points, self.degree)
+
     def length(self) -> float:
         """Arc length by 16-point Gauss-Legendre quadrature on four parts of every span.
 
@@ -227,16 +243,7 @@ class BSplineCurve:
             and np.array_equal(coefficients[m:], coefficients[:degree])
         ):
             return cls(knots, coefficients[:m], degree, periodic=True)
-        begin, end = knots[degree], knots[n_coefficients]
-        for at in (begin, end):
-            missing = degree - int(np.count_nonzero(knots == at))
-            for _ in range(max(missing, 0)):
-                knots, coefficients = _with_knot(knots, coefficients, degree, at)
-        first = int(np.searchsorted(knots, begin, side="right")) - degree
-        last = int(np.searchsorted(knots, end, side="left"))
-        inner = knots[first + degree : last]
-        knots = np.concatenate([np.full(degree + 1, begin), inner, np.full(degree + 1, end)])
-        return cls(knots, coefficients[first - 1 : last], degree)
+        return cls(*clamped_ends(knots, coefficients, degree), degree)
 
 
 def _differentiated(
@@ -247,6 +254,22 @@ def _differentiated(
     difference = np.diff(coefficients, axis=0)
     slope = np.divide(degree * difference, width, out=np.zeros_like(difference), where=width > 0)
     return np.ascontiguousarray(knots[1:-1]), slope
+
+
+def clamped_ends(
+    knots: FloatArray, coefficients: FloatArray, degree: int
+) -> tuple[FloatArray, FloatArray]:
+    """Knots and coefficients of the same curve, clamped at the ends of its domain."""
+    begin, end = knots[degree], knots[len(coefficients)]
+    for at in (begin, end):
+        missing = degree - int(np.count_nonzero(knots == at))
+        for _ in range(max(missing, 0)):
+            knots, coefficients = _with_knot(knots, coefficients, degree, at)
+    first = int(np.searchsorted(knots, begin, side="right")) - degree
+    last = int(np.searchsorted(knots, end, side="left"))
+    inner = knots[first + degree : last]
+    knots = np.concatenate([np.full(degree + 1, begin), inner, np.full(degree + 1, end)])
+    return knots, coefficients[first - 1 : last].copy()
 
 
 def _with_knot(

@@ -60,7 +60,10 @@ FORMATS = (
     Format("CSV", (".csv", ".txt", ".dat", ".xy", ".tsv"), "csv", reads=True),
     Format("NumPy", (".npy",), "npy", reads=True),
     Format("image", (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"), "image", reads=True),
-    Format("SVG", (".svg",), "svg", writes=True),
+    Format("SVG", (".svg",), "svg_reader", reads=True),
+    Format("SVG", (".svg",), "svg_writer", writes=True),
+    Format("DXF", (".dxf",), "dxf_reader", reads=True),
+    Format("DXF", (".dxf",), "dxf_writer", writes=True),
     Format("JSON", (".json",), "json", reads=True, writes=True),
 )
 
@@ -121,7 +124,7 @@ def read(
     Traceback (most recent call last):
     ...
     shapespline.errors.UnknownFormatError: outline.xyz: no reader for '.xyz'; readable endings: \
-.bmp .csv .dat .jpeg .jpg .json .npy .png .tif .tiff .tsv .txt .xy
+.bmp .csv .dat .dxf .jpeg .jpg .json .npy .png .svg .tif .tiff .tsv .txt .xy
     """
     path = Path(path)
     if path.is_dir():
