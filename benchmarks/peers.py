@@ -49,6 +49,34 @@ def make_splprep_points(points: Array, *, closed: bool, tolerance: float) -> Pee
     return _best(fit, points, False, tolerance, polyline_closed=closed)
 
 
+def occ_points(points: Array, *, closed: bool, tolerance: float) -> Peer | None:
+    """OpenCASCADE's approximation by a C2 cubic; None where it is not installed."""
+    try:
+        from OCP.collections import Array1_gp_Pnt2d
+        from OCP.Geom2dAPI import Geom2dAPI_PointsToBSpline
+        from OCP.GeomAbs import GeomAbs_Shape
+        from OCP.gp import gp_Pnt2d
+    except ImportError:
+        return None
+    track = np.concatenate([points, points[:1]]) if closed else points
+    given = Array1_gp_Pnt2d(1, len(track))
+    for index, (x, y) in enumerate(track.tolist(), start=1):
+        given.SetValue(index, gp_Pnt2d(x, y))
+
+    def fit(s: float) -> BSpline:
+        # Its own tolerance from the knob that the others have: a sum of squares.
+        own = float(np.sqrt(s / len(points)))
+        curve = Geom2dAPI_PointsToBSpline(given, 3, 3, GeomAbs_Shape.GeomAbs_C2, own).Curve()
+        knots = np.repeat(
+            [curve.Knot(i) for i in range(1, curve.NbKnots() + 1)],
+            [curve.Multiplicity(i) for i in range(1, curve.NbKnots() + 1)],
+        )
+        poles = [curve.Pole(i) for i in range(1, curve.NbPoles() + 1)]
+        return BSpline(knots, np.array([[pole.X(), pole.Y()] for pole in poles]), curve.Degree())
+
+    return _best(fit, points, False, tolerance, polyline_closed=closed)
+
+
 def _best(
     fit: Callable[[float], BSpline],
     points: Array,

@@ -4,6 +4,8 @@
     python -m benchmarks.quality --all        every outline of ../shared/data beside it
     python -m benchmarks.quality --every 10   each tenth of them
     python -m benchmarks.quality --no-peers   the promise alone
+    python -m benchmarks.quality --jobs 2     two outlines at a time; the times then mean less
+    python -m benchmarks.quality --figures F  also pictures of the worst ten fits, to be looked at
 
 Every curve is checked by the sampler of outside_metric.py, which shares nothing with the package.
 """
@@ -12,9 +14,11 @@ from __future__ import annotations
 
 import argparse
 import csv
+import functools
 import time
 import warnings
 from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -23,6 +27,7 @@ import numpy as np
 import shapespline as ss
 from benchmarks.outside_metric import two_sided
 from benchmarks.peers import polyline_points, splprep_points
+from benchmarks.worst_fits import draw_worst
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -131,8 +136,7 @@ def report(rows: list[Row]) -> None:
     _line("all", rows)
     print("\nstatuses:", dict(Counter(row.status for row in rows)))
     print("\nWorst ten against the better peer:")
-    ranked = sorted(rows, key=lambda row: -row.n_points / min(row.splprep, row.polyline))
-    for row in ranked[:10]:
+    for row in worst(rows):
         print(
             f"  {row.category}/{row.name} at {row.percent} %: {row.n_points} points of"
             f" {row.n_data}, splprep {row.splprep:.0f}, polyline {row.polyline:.0f}"
@@ -157,15 +161,26 @@ def _line(label: str, rows: list[Row]) -> None:
     )
 
 
-def run(outlines: list[Outline], *, peers: bool, **options: object) -> list[Row]:
+def run(outlines: list[Outline], *, peers: bool, n_jobs: int = 1, **options: object) -> list[Row]:
     """Measure every outline at every tolerance."""
-    rows = []
-    for outline in outlines:
-        for percent in TOLERANCES:
-            rows.append(measure(outline, percent, peers=peers, **options))
-            if rows[-1].broken:
-                print(f"BROKEN {rows[-1]}", flush=True)
+    one = functools.partial(_at_every_tolerance, peers=peers, **options)
+    if n_jobs == 1:
+        return [row for outline in outlines for row in one(outline)]
+    with ProcessPoolExecutor(n_jobs) as pool:
+        return [row for found in pool.map(one, outlines) for row in found]
+
+
+def _at_every_tolerance(outline: Outline, *, peers: bool, **options: object) -> list[Row]:
+    rows = [measure(outline, percent, peers=peers, **options) for percent in TOLERANCES]
+    for row in rows:
+        if row.broken:
+            print(f"BROKEN {row}", flush=True)
     return rows
+
+
+def worst(rows: list[Row], count: int = 10) -> list[Row]:
+    """Fits with the most points against the better peer, the worst first."""
+    return sorted(rows, key=lambda row: -row.n_points / min(row.splprep, row.polyline))[:count]
 
 
 def main() -> None:
@@ -174,6 +189,8 @@ def main() -> None:
     parser.add_argument("--all", action="store_true", help="the large corpus")
     parser.add_argument("--every", type=int, help="each so many-th outline of the large corpus")
     parser.add_argument("--no-peers", action="store_true", help="the promise alone")
+    parser.add_argument("--jobs", type=int, default=1, help="outlines at a time")
+    parser.add_argument("--figures", type=Path, help="a folder for pictures of the worst ten")
     parser.add_argument("--form", default="pieces")
     parser.add_argument("--corners", default="auto")
     parser.add_argument("--effort", default="balanced")
@@ -182,7 +199,12 @@ def main() -> None:
     outlines = list(large_corpus() if large else own_corpus())[:: chosen.every or 1]
     options = {"form": chosen.form, "corners": chosen.corners, "effort": chosen.effort}
     print(f"## {len(outlines)} outlines, {options}\n")
-    report(run(outlines, peers=not chosen.no_peers, **options))
+    rows = run(outlines, peers=not chosen.no_peers, n_jobs=chosen.jobs, **options)
+    report(rows)
+    if chosen.figures is not None:
+        contours = {outline.name: outline.contour for outline in outlines}
+        for path in draw_worst(worst(rows), contours, chosen.figures, **options):
+            print(path)
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ def test_every_dialect_is_read_exactly(
     points, separation, header, comment, newline, tail, encoding
 ):
     text = written(points, separation, header, comment, newline, tail)
-    assert np.array_equal(csv.parse(text.encode(encoding)), np.array(points))
+    assert np.array_equal(csv.parse(text.encode(encoding)).points, np.array(points))
 
 
 @pytest.mark.parametrize(
@@ -71,11 +71,11 @@ def test_every_dialect_is_read_exactly(
     ],
 )
 def test_by_hand(text, points):
-    assert csv.parse(text.encode()).tolist() == [list(map(float, point)) for point in points]
+    assert csv.parse(text.encode()).points.tolist() == [list(map(float, point)) for point in points]
 
 
 def test_latin_1_header_is_no_obstacle():
-    assert csv.parse("x (µm);y (µm)\n1;2\n".encode("latin-1")).tolist() == [[1.0, 2.0]]
+    assert csv.parse("x (µm);y (µm)\n1;2\n".encode("latin-1")).points.tolist() == [[1.0, 2.0]]
 
 
 @pytest.mark.parametrize(
@@ -114,7 +114,7 @@ def test_binary_data_is_refused():
 @given(st.binary(max_size=200))
 def test_any_bytes_give_points_or_a_format_error(data):
     try:
-        points = csv.parse(data)
+        points = csv.parse(data).points
     except FormatError:
         return
     assert points.shape[1] == 2

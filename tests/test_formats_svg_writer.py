@@ -14,6 +14,7 @@ from shapespline.contour import Contour, Frame
 from shapespline.curve import BSplineCurve
 from shapespline.drawing import Drawing
 from shapespline.errors import FormatError, InvalidInputError
+from shapespline.formats import cubics as beziers
 from shapespline.formats import svg_writer as subject
 from shapespline.knots import clamped_knots
 
@@ -135,7 +136,7 @@ def test_high_degrees_keep_the_bound(tmp_path, make, degree):
     parts = evaluated(cubics_of(segments), np.linspace(0, 1, 401)[:-1])
     ends = cubics_of(segments)[-1:, 3]
     original, cubics = curve(u), upright(np.concatenate([parts.reshape(-1, 2), ends]))
-    bound = subject.CUBIC_TOLERANCE * fit.contour.box_diagonal
+    bound = beziers.CUBIC_TOLERANCE * fit.contour.box_diagonal
     # A chord of length c leaves an arc of curvature k by k c^2 / 8.
     step = max(np.hypot(*np.diff(line, axis=0).T).max() for line in (original, cubics))
     sagitta = np.abs(curve.curvature(u)).max() * step**2 / 8
@@ -149,7 +150,7 @@ def test_high_degrees_keep_the_bound(tmp_path, make, degree):
 def test_high_degrees_at_equal_parameters(degree):
     """The rigorous statement itself: every cubic against the part of the piece it stands for."""
     piece = np.random.default_rng(degree).uniform(-1, 1, (degree + 1, 2))
-    cubics = list(subject._cubics(piece, 1e-6))
+    cubics = list(beziers._cubics(piece, 1e-6))
     knots = [np.repeat([0.0, 1.0], k + 1) for k in (degree, 3)]
     whole = BSplineCurve(knots[0], piece, degree)
     t = np.linspace(0, 1, 101)
@@ -231,7 +232,7 @@ def test_extremes_of_cubics_against_dense_samples():
     cubics[1] = [(0, 0), (0, 1), (1, 1), (1, 0)]  # quadratic term vanishes in y
     for cubic in cubics:
         (dense,) = evaluated(cubic[None], np.linspace(0, 1, 5001))
-        found = subject._extremes(cubic[None])
+        found = beziers.turning_points(cubic[None])
         # Next to an extreme a sample is at most |p''| dt^2 / 8 <= 6 * 4 * 4e-8 / 8 away.
         np.testing.assert_allclose(found.max(axis=0), dense.max(axis=0), rtol=0, atol=1.3e-7)
         np.testing.assert_allclose(found.min(axis=0), dense.min(axis=0), rtol=0, atol=1.3e-7)

@@ -167,22 +167,6 @@ class BSplineCurve:
         _kernels.bezier_pieces(self.knots, self.degree, self.coefficients, points, breakpoints)
         return BezierPieces(points.reshape(n_pieces, self.degree + 1, 2), breakpoints)
 
-    def clamped(self) -> BSplineCurve:
-        """The same curve with knots that are clamped at the ends of its domain.
-
-        Examples
-        --------
-        >>> from shapespline.knots import periodic_knots
-        >>> ring = BSplineCurve(periodic_knots(3, 2), [(0, 0), (4, 0), (0, 4)], 2, periodic=True)
-        >>> ring.clamped().control_points[[0, -1]].tolist()
-        [[2.0, 0.0], [2.0, 0.0]]
-        """
-        if not self.periodic:
-            return self
-        knots, points = clamped_ends(self.knots, self.coefficients, self.degree)
-        points[-1] = points[0]  # knot insertion may miss it by a rounding
-        return BSplineCurve(knots, points, self.degree)
-
     def length(self) -> float:
         """Arc length by 16-point Gauss-Legendre quadrature on four parts of every span.
 
@@ -213,6 +197,24 @@ class BSplineCurve:
 
         extrapolate = "periodic" if self.periodic else True
         return BSpline(self.knots, self.coefficients, self.degree, extrapolate=extrapolate)
+
+    def clamped(self) -> BSplineCurve:
+        """The same curve with clamped knots: of a periodic one its exact open form.
+
+        Examples
+        --------
+        >>> from shapespline.knots import periodic_knots
+        >>> ring = BSplineCurve(
+        ...     periodic_knots(4, 2), [(1, 0), (0, 1), (-1, 0), (0, -1)], 2, periodic=True
+        ... )
+        >>> ring.clamped().n_control_points, bool((ring([0.3]) == ring.clamped()([0.3])).all())
+        (6, True)
+        """
+        if not self.periodic:
+            return self
+        knots, points = clamped_ends(self.knots, self.coefficients, self.degree)
+        points[-1] = points[0]  # knot insertion may miss it by a rounding
+        return BSplineCurve(knots, points, self.degree)
 
     @classmethod
     def from_scipy(cls, spline: BSpline) -> BSplineCurve:

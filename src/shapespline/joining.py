@@ -15,12 +15,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.curve import BSplineCurve
-from shapespline.drawing import CORNER_TURN, Piece
+from shapespline.drawing import Piece
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from shapespline.drawing import Fit
     from shapespline.typing import FloatArray
 
 # Control points beside a node that are closer to it than this part of the others, or parameter
@@ -92,68 +91,6 @@ def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
         knots.append(np.full(degree + 1 if last else degree - drop, ends[i + 1]))
         points.append(piece.control_points[1 : len(piece.control_points) - drop])
     return BSplineCurve(np.concatenate(knots), np.concatenate(points), degree)
-
-
-def corner_free_runs(fit: Fit) -> list[tuple[Piece, ...]]:
-    """The pieces of a fit cut into lines, each alone, and longest runs of curves without a corner.
-
-    A closed outline begins at a cut, if it has one; pieces of a periodic curve are clamped.
-
-    Examples
-    --------
-    >>> from shapespline.exact import exact_fit
-    >>> line = Piece("line", 1, np.array([0.0, 0, 1, 1]), np.array([[0.0, 0], [1, 0]]))
-    >>> bend = Piece("bezier", 2, np.repeat([0.0, 1], 3), np.array([[1.0, 0], [2, 0], [2, 1]]))
-    >>> back = Piece("bezier", 2, bend.knots, np.array([[2.0, 1], [2, 2], [1, 2]]))
-    >>> [len(run) for run in corner_free_runs(exact_fit([line, bend, back]))]
-    [1, 2]
-    """
-    whole = fit.pieces
-    if fit.spline.periodic and not fit.sections:
-        curve = fit.spline.clamped()
-        whole = (Piece("spline", curve.degree, curve.knots, curve.control_points),)
-    pieces = [part for piece in whole for part in _cut_at_corners(piece)]
-    cuts = [_is_cut(pieces[index - 1], after) for index, after in enumerate(pieces)]
-    if fit.closed and any(cuts):
-        first = cuts.index(True)
-        pieces, cuts = pieces[first:] + pieces[:first], cuts[first:] + cuts[:first]
-    cuts[0] = True
-    begins = [index for index, cut in enumerate(cuts) if cut]
-    return [tuple(pieces[a:b]) for a, b in zip(begins, [*begins[1:], len(pieces)], strict=True)]
-
-
-def _is_cut(before: Piece, after: Piece) -> bool:
-    return 1 in (before.degree, after.degree) or abs(turn_between(before, after)) > CORNER_TURN
-
-
-def _cut_at_corners(piece: Piece) -> list[Piece]:
-    """A clamped piece cut at its corners, knots of full multiplicity; into lines if degree 1."""
-    p, knots, points = piece.degree, piece.knots, piece.control_points
-    inner, counts = np.unique(knots[p + 1 : len(points)], return_counts=True)
-    parts, begin, first = [], knots[0], 0
-    for at in inner[counts == p]:
-        # The control point on the curve there.
-        last = int(np.searchsorted(knots, at)) - 1
-        u, v = points[last] - points[last - 1], points[last + 1] - points[last]
-        if p > 1 and abs(np.arctan2(u[0] * v[1] - u[1] * v[0], u @ v)) <= CORNER_TURN:
-            continue
-        parts.append((begin, at, first, last))
-        begin, first = at, last
-    parts.append((begin, knots[-1], first, len(points) - 1))
-    if len(parts) == 1:
-        return [piece]
-    return [
-        _part(piece, float(a), float(b), points[first : last + 1]) for a, b, first, last in parts
-    ]
-
-
-def _part(piece: Piece, begin: float, end: float, points: FloatArray) -> Piece:
-    """The part of a piece between two knots at which it is cut, over [0, 1]."""
-    p = piece.degree
-    inner = piece.knots[(piece.knots > begin) & (piece.knots < end)]
-    knots = np.concatenate([np.zeros(p + 1), (inner - begin) / (end - begin), np.ones(p + 1)])
-    kind = "spline" if len(inner) else "line" if p == 1 else "bezier"
-    return Piece(kind, p, knots, points)
 
 
 def _c1_possible(before: Piece, after: Piece) -> bool:

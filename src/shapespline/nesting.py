@@ -9,11 +9,30 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from shapespline.contour import Contour
     from shapespline.typing import FloatArray, IntArray
 
 # Vertices of an outline that are asked whether they lie inside another: where outlines touch or
 # share a stretch, a single one may be told wrong.
 WITNESSES = 7
+
+
+def parents_of(contours: Sequence[Contour]) -> list[int]:
+    """For each contour the closed one directly around it, -1 for none; open ones lie in nothing.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    >>> parents_of([Contour(4 * square - 1, closed=True), Contour(square, closed=True)])
+    [-1, 0]
+    """
+    closed = [index for index, contour in enumerate(contours) if contour.closed]
+    parents = [-1] * len(contours)
+    around = containing([contours[index].points for index in closed])
+    for index, parent in zip(closed, around, strict=True):
+        parents[index] = closed[parent] if parent >= 0 else -1
+    return parents
 
 
 def containing(polygons: Sequence[FloatArray]) -> list[int]:

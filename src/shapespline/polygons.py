@@ -15,16 +15,18 @@ if TYPE_CHECKING:
 
 
 def polyline_curve(contour: Contour) -> BSplineCurve:
-    """The data polyline as a clamped curve of degree 1, by chord length.
+    """The data polyline as a clamped curve of degree 1.
+
+    Knots are equidistant: of two points that are almost one, arc length would make one knot.
 
     Examples
     --------
     >>> from shapespline import Contour
     >>> polyline_curve(Contour([(0, 0), (3, 0), (3, 1)], closed=False)).knots.tolist()
-    [0.0, 0.0, 0.75, 1.0, 1.0]
+    [0.0, 0.0, 0.5, 1.0, 1.0]
     """
-    inner = contour.arc_length[1:-1] / contour.length
-    return BSplineCurve(np.concatenate([[0, 0], inner, [1, 1]]), contour.polyline, 1)
+    knots = np.linspace(0.0, 1.0, len(contour.polyline))
+    return BSplineCurve(np.concatenate([[0.0], knots, [1.0]]), contour.polyline, 1)
 
 
 def polygon_drawing(shape: Shape) -> Drawing:

@@ -57,14 +57,21 @@ class Format:
 
 
 FORMATS = (
-    Format("CSV", (".csv", ".txt", ".dat", ".xy", ".tsv"), "csv", reads=True),
+    Format("CSV", (".csv", ".txt", ".dat", ".xy", ".tsv"), "csv", reads=True, writes=True),
     Format("NumPy", (".npy",), "npy", reads=True),
     Format("image", (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"), "image", reads=True),
+    Format("picture", (".png",), "picture", writes=True),
     Format("SVG", (".svg",), "svg_reader", reads=True),
     Format("SVG", (".svg",), "svg_writer", writes=True),
     Format("DXF", (".dxf",), "dxf_reader", reads=True),
     Format("DXF", (".dxf",), "dxf_writer", writes=True),
     Format("JSON", (".json",), "json", reads=True, writes=True),
+    Format("STEP", (".step", ".stp"), "step", reads=True, writes=True),
+    Format("IGES", (".iges", ".igs"), "iges", reads=True, writes=True),
+    Format("3dm", (".3dm",), "rhino", reads=True, writes=True),
+    Format("GeoJSON", (".geojson",), "geojson", reads=True, writes=True),
+    Format("PDF", (".pdf",), "pdf", writes=True),
+    Format("Python", (".py",), "python", writes=True),
 )
 
 
@@ -124,7 +131,8 @@ def read(
     Traceback (most recent call last):
     ...
     shapespline.errors.UnknownFormatError: outline.xyz: no reader for '.xyz'; readable endings: \
-.bmp .csv .dat .dxf .jpeg .jpg .json .npy .png .svg .tif .tiff .tsv .txt .xy
+.3dm .bmp .csv .dat .dxf .geojson .iges .igs .jpeg .jpg .json .npy .png .step .stp .svg .tif .tiff \
+.tsv .txt .xy
     """
     path = Path(path)
     if path.is_dir():
@@ -228,7 +236,7 @@ def writable() -> tuple[str, ...]:
 
     Examples
     --------
-    >>> ".svg" in writable(), ".png" in writable()
+    >>> ".svg" in writable(), ".npy" in writable()
     (True, False)
     """
     return tuple(sorted(suffix for entry in FORMATS if entry.writes for suffix in entry.suffixes))

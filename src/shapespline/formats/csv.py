@@ -1,4 +1,4 @@
-"""Delimited text: one point a line, two columns of numbers."""
+"""Delimited text: one point a line, two columns of numbers, a blank line between outlines."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ import numpy as np
 
 from shapespline.contour import Contour, Shape
 from shapespline.errors import FormatError
+from shapespline.exact import sampled
+from shapespline.nesting import parents_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from shapespline.drawing import Drawing
     from shapespline.typing import FloatArray
 
 COMMENT = "#"
@@ -40,13 +43,42 @@ DIALECTS = (
 )
 
 
+def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:
+    """Points of every curve at a chordal tolerance, a blank line between curves.
+
+    Parameters
+    ----------
+    drawing : Drawing
+    chord : float, optional
+        Largest distance between the curve and the polyline written, data units; 1e-4 of the box
+        diagonal if not given. Straight pieces are two points whatever it is.
+
+    Returns
+    -------
+    bytes
+        Two columns with the shortest digits that read back to the same doubles, separated by
+        commas. Closed curves repeat their first point at the end.
+
+    Raises
+    ------
+    InvalidInputError
+        If ``chord`` is not positive, or absurdly small.
+    """
+    outlines = [sampled(fit.spline, chord)[0].polyline.tolist() for fit in drawing]
+    blocks = ["".join(f"{x!r},{y!r}\n" for x, y in points) for points in outlines]
+    return "\n".join(blocks).encode("ascii")
+
+
 def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Shape:
-    """Read one outline from delimited text.
+    """Read outlines from delimited text.
 
     Columns are separated by semicolons, commas, or blanks and tabs (a run of them counts once);
     which, is told by the first line of numbers. Where commas do not separate columns, they are
-    decimal commas. Blank lines, ``#`` comments, quotes, a byte order mark and one header line
-    (no numbers in it) are skipped. UTF-8, else Latin-1.
+    decimal commas. ``#`` comments, quotes, a byte order mark and one header line (no numbers in
+    it) are skipped. A blank line begins another outline, unless it would leave an outline of a
+    single point. Airfoils in the layout of Lednicer (numbers of points above and below, then both
+    surfaces from the leading edge) become one outline from the trailing edge around. UTF-8, else
+    Latin-1.
 
     Parameters
     ----------
@@ -60,7 +92,7 @@ def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Sha
     Returns
     -------
     Shape
-        One contour, no frame.
+        Contours nested by containment, no frame.
 
     Raises
     ------
@@ -69,10 +101,17 @@ def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Sha
     InvalidInputError
         If the points make no contour.
     """
-    points = parse(path.read_bytes())
+    points, breaks = parse(path.read_bytes())
     if y_down:
         points = turned_over(points)
-    return Shape([Contour(points, closed)])
+    outlines = np.split(points, breaks)
+    airfoil = around_airfoil(points)
+    if airfoil is not None:
+        outlines = [airfoil]
+    elif min(map(len, outlines)) < 2:
+        outlines = [points]
+    contours = [Contour(outline, closed) for outline in outlines]
+    return Shape(contours, parents_of(contours))
 
 
 def turned_over(points: FloatArray) -> FloatArray:
@@ -87,13 +126,42 @@ def turned_over(points: FloatArray) -> FloatArray:
     return np.column_stack([points[:, 0], low + high - points[:, 1]])
 
 
-def parse(data: bytes) -> FloatArray:
-    r"""Points of delimited text, shape (n, 2).
+def around_airfoil(points: FloatArray) -> FloatArray | None:
+    """An airfoil in Lednicer's layout as one outline; None if the points are none.
+
+    The first row holds the numbers of points of the upper and the lower surface, which follow, both
+    from the leading edge to the trailing edge.
 
     Examples
     --------
-    >>> parse(b"x;y\n1,5;2\n3;4,5\n").tolist()
-    [[1.5, 2.0], [3.0, 4.5]]
+    >>> rows = [(3, 3), (0, 0), (0.5, 0.1), (1, 0), (0, 0), (0.5, -0.1), (1, 0)]
+    >>> around_airfoil(np.array(rows)).tolist()
+    [[1.0, 0.0], [0.5, 0.1], [0.0, 0.0], [0.5, -0.1], [1.0, 0.0]]
+    """
+    if len(points) < 7 or (points[0] < 3).any() or points[0].sum() != len(points) - 1:
+        return None
+    upper, lower = np.split(points[1:], [int(points[0, 0])])
+    if float(points[0, 0]) != len(upper):
+        return None
+    same = bool((upper[0] == lower[0]).all())
+    return np.concatenate([upper[::-1], lower[int(same) :]])
+
+
+class Parsed(NamedTuple):
+    """All points, shape (n, 2), and how many of them stand before each blank line among them."""
+
+    points: FloatArray
+    breaks: list[int]
+
+
+def parse(data: bytes) -> Parsed:
+    r"""Points of delimited text.
+
+    Examples
+    --------
+    >>> points, breaks = parse(b"x;y\n1,5;2\n3;4,5\n\n0;0\n1;1\n")
+    >>> points.tolist(), breaks
+    ([[1.5, 2.0], [3.0, 4.5], [0.0, 0.0], [1.0, 1.0]], [2])
     """
     lines = _decoded(data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
     dialect, n_skipped = _dialect(lines)
@@ -109,7 +177,22 @@ def parse(data: bytes) -> FloatArray:
     except (ValueError, OverflowError):
         sound = False
     # Thirty times slower, but it names the line, and it skips blank lines that hold blanks.
-    return points if sound else _line_by_line(lines, n_skipped, dialect)
+    if not sound:
+        points = _line_by_line(lines, n_skipped, dialect)
+    return Parsed(points, _breaks(body, len(points)))
+
+
+def _breaks(body: list[str], n_points: int) -> list[int]:
+    """Numbers of points before the blank lines that have points on both sides."""
+    found: dict[int, None] = {}
+    before = 0
+    for line in body:
+        content = line.strip()
+        if not content:
+            found[before] = None
+        elif not content.startswith(COMMENT):
+            before += 1
+    return [count for count in found if 0 < count < n_points]
 
 
 def _decoded(data: bytes) -> str:

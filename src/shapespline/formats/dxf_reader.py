@@ -11,8 +11,9 @@ import numpy as np
 
 from shapespline.errors import FormatError, SkippedContentWarning
 from shapespline.exact import Outlines
+from shapespline.formats.chains import chained
 from shapespline.formats.elliptic import elliptical_arc
-from shapespline.formats.outlines import bezier, chained, size_of
+from shapespline.formats.outlines import bezier, size_of
 from shapespline.formats.splines import spline_pieces
 
 if TYPE_CHECKING:

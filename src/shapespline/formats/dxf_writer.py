@@ -7,6 +7,7 @@ to corner, a smooth closed curve in its exact clamped form with the closed flag.
 from __future__ import annotations
 
 import io
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +15,8 @@ import numpy as np
 from shapespline.arcs import arc_polyline
 from shapespline.drawing import Piece
 from shapespline.errors import InvalidInputError
-from shapespline.joining import corner_free_runs, joined
+from shapespline.formats.entities import entities
+from shapespline.joining import joined
 
 if TYPE_CHECKING:
     from ezdxf.layouts import Modelspace
@@ -99,15 +101,12 @@ def encode(
 
 def _add_splines(space: Modelspace, fit: Fit, degree: int) -> None:
     """Lines and splines of one outline, end to end."""
-    runs = corner_free_runs(fit)
-    # Closed and smooth all around is a single run whose end flows into its beginning.
-    around = fit.closed and len(runs) == 1 and not len(fit.corners)
-    for run in runs:
-        if run[0].degree == 1:
-            begin, end = run[0].control_points
-            space.add_line(begin, end)
+    for entity in entities(fit):
+        if entity.curve.degree == 1:
+            for begin, end in pairwise(entity.curve.control_points):
+                space.add_line(begin, end)
         else:
-            _add_spline(space, joined(run), degree, closed=around)
+            _add_spline(space, entity.curve, degree, closed=entity.closed)
 
 
 def _add_spline(space: Modelspace, curve: BSplineCurve, degree: int, *, closed: bool) -> None:

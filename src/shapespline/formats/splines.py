@@ -14,6 +14,7 @@ import numpy as np
 from shapespline.curve import BSplineCurve, clamped_ends
 from shapespline.drawing import Piece
 from shapespline.errors import FormatError, InvalidInputError
+from shapespline.formats.cubics import halves
 from shapespline.formats.outlines import bezier
 from shapespline.knots import check_degree
 
@@ -108,12 +109,7 @@ def _cubics(span: FloatArray, tolerance: float, halvings: int) -> Iterator[Float
     elif halvings == 0:
         raise FormatError("a rational spline has weights so uneven that no cubics can follow it")
     else:
-        first, last, rest = [span[0]], [span[-1]], span
-        while len(rest) > 1:
-            rest = 0.5 * (rest[:-1] + rest[1:])
-            first.append(rest[0])
-            last.append(rest[-1])
-        for half in (np.array(first), np.array(last[::-1])):
+        for half in halves(span):
             yield from _cubics(half, tolerance, halvings - 1)
 
 

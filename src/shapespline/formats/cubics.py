@@ -1,0 +1,130 @@
+"""Curves as cubic Beziers, for formats that know no others.
+
+Knot insertion cuts a B-spline into Beziers without changing it. Those of degree 1 to 3 are cubics
+(or lines), so nothing is lost but a rounding. Cubics cannot hold degrees 4 to 9: such a piece is
+replaced by cubics with the same ends and end tangents, halved until they are provably within
+``CUBIC_TOLERANCE`` times the diagonal of the contour's bounding box.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from shapespline.drawing import Drawing, Fit
+    from shapespline.typing import FloatArray
+
+# Of the box diagonal: what a cubic may deviate from a piece of degree 4 or more.
+CUBIC_TOLERANCE = 1e-6
+EPS = float(np.finfo(np.float64).eps)
+
+
+def groups(drawing: Drawing) -> list[list[int]]:
+    """Indices of the fits that are filled together: an outline and its holes, or a curve alone."""
+    found: dict[int, list[int]] = {}
+    holes: list[tuple[int, int]] = []
+    for index, fit in enumerate(drawing):
+        parent = drawing.parents[index]
+        if drawing.is_hole(index) and fit.closed and drawing.fits[parent].closed:
+            holes.append((parent, index))
+        else:
+            found[index] = [index]
+    for parent, index in holes:
+        found[parent].append(index)
+    return list(found.values())
+
+
+def as_cubics(fit: Fit) -> FloatArray:
+    """Cubic Beziers of a fit end to end, data coordinates, shape (s, 4, 2)."""
+    points = fit.spline.beziers().points
+    if fit.degree <= 3:
+        cubics = points
+        while cubics.shape[1] < 4:
+            cubics = elevated(cubics)
+    else:
+        # Below the rounding of the coordinates no halving could reach the tolerance.
+        rounding = 64 * EPS * float(np.abs(points).max())
+        tolerance = max(CUBIC_TOLERANCE * fit.contour.box_diagonal, rounding)
+        cubics = np.array([cubic for piece in points for cubic in _cubics(piece, tolerance)])
+    if fit.closed:
+        cubics[-1, -1] = cubics[0, 0]  # knot insertion may miss it by a rounding
+    return cubics
+
+
+def elevated(points: FloatArray) -> FloatArray:
+    """Raise the degree of Beziers by one, exactly: shape (s, degree + 2, 2).
+
+    Q_i = i/(p+1) P_{i-1} + (1 - i/(p+1)) P_i, without a rounding where P_{i-1} = P_i.
+    """
+    share = (np.arange(1, points.shape[1]) / points.shape[1])[:, None]
+    inner = points[:, 1:] + share * (points[:, :-1] - points[:, 1:])
+    return np.concatenate([points[:, :1], inner, points[:, -1:]], axis=1)
+
+
+def _cubics(piece: FloatArray, tolerance: float) -> Iterator[FloatArray]:
+    """Cubics with the end points and end derivatives of a Bezier or of its halves.
+
+    Two Beziers of one degree differ nowhere by more than their control points do, since the
+    Bernstein polynomials are positive and sum to one: so the elevated cubic bounds the error.
+    """
+    degree = len(piece) - 1
+    cubic = np.array(
+        [
+            piece[0],
+            piece[0] + degree / 3 * (piece[1] - piece[0]),
+            piece[-1] + degree / 3 * (piece[-2] - piece[-1]),
+            piece[-1],
+        ]
+    )
+    same_degree = cubic[None]
+    while same_degree.shape[1] <= degree:
+        same_degree = elevated(same_degree)
+    if np.hypot(*(same_degree[0] - piece).T).max() <= tolerance:
+        yield cubic
+    else:
+        for half in halves(piece):
+            yield from _cubics(half, tolerance)
+
+
+def halves(piece: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Cut a Bezier into its two halves (de Casteljau)."""
+    first, last = [piece[0]], [piece[-1]]
+    while len(piece) > 1:
+        piece = 0.5 * (piece[:-1] + piece[1:])
+        first.append(piece[0])
+        last.append(piece[-1])
+    return np.array(first), np.array(last[::-1])
+
+
+def is_straight(cubic: FloatArray) -> bool:
+    """Whether a cubic runs straight from end to end, to the rounding of its coordinates."""
+    chord = cubic[3] - cubic[0]
+    length = float(np.hypot(*chord))
+    if length == 0.0:
+        return bool((cubic == cubic[0]).all())
+    inner = cubic[1:3] - cubic[0]
+    offset = np.abs(inner[:, 0] * chord[1] - inner[:, 1] * chord[0]).max() / length
+    along = inner @ chord / length**2
+    # The cross product cancels: its rounding is that of the coordinates, not of the result.
+    return bool(
+        offset <= 4 * EPS * np.abs(cubic).max() and along.min() >= 0.0 and along.max() <= 1.0
+    )
+
+
+def turning_points(cubics: FloatArray) -> FloatArray:
+    """End points and points where x or y turns, of cubics, shape (k, 2)."""
+    first, second, third = (3 * np.diff(cubics, axis=1)).transpose(1, 0, 2)
+    # Derivative a t^2 + b t + c; its roots without cancellation, q as in Numerical Recipes 5.6.
+    a, b, c = first - 2 * second + third, 2 * (second - first), first
+    with np.errstate(divide="ignore", invalid="ignore"):
+        q = -0.5 * (b + np.copysign(np.sqrt(b * b - 4 * a * c), b))
+        roots = np.stack([q / a, c / q])
+    roots = np.where((roots > 0) & (roots < 1), roots, 0.0)[..., None]
+    rest = 1 - roots
+    p0, p1, p2, p3 = (cubics[None, :, None, i] for i in range(4))
+    turns = rest**3 * p0 + 3 * rest**2 * roots * p1 + 3 * rest * roots**2 * p2 + roots**3 * p3
+    return np.concatenate([cubics[:, 0], cubics[:, 3], turns.reshape(-1, 2)])

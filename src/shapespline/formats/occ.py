@@ -1,0 +1,234 @@
+"""STEP and IGES through OpenCASCADE: curves in the plane z = 0, to wires and faces and back.
+
+Needs the extra ``cad``.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import sys
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shapespline.drawing import Piece
+from shapespline.errors import FormatError, MissingExtraError
+from shapespline.exact import Outlines
+from shapespline.formats.chains import chained
+from shapespline.formats.cubics import groups
+from shapespline.formats.entities import entities
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from shapespline.drawing import Drawing, Fit
+    from shapespline.formats.entities import Entity
+
+# Of the largest coordinate: what counts as the plane z = 0, and how near the cubics come that stand
+# for arcs and other rational curves.
+FLAT, CONVERTED = 1e-9, 1e-10
+
+
+def require() -> None:
+    """Raise a sentence unless OpenCASCADE is there."""
+    try:
+        import OCP.Geom  # noqa: F401
+    except ImportError as error:
+        raise MissingExtraError(
+            "STEP and IGES files need OpenCASCADE: pip install 'shapespline[cad]'"
+        ) from error
+
+
+def wires(drawing: Drawing, scale: float) -> Any:
+    """A drawing as a wire, or a compound of wires."""
+    return _together([_wire(fit, scale) for fit in drawing])
+
+
+def faces(drawing: Drawing, scale: float) -> Any:
+    """A drawing as plane faces with holes; what makes no valid face, open curves too, as wires."""
+    shapes = []
+    for group in groups(drawing):
+        bounds = [_wire(drawing.fits[index], scale) for index in group]
+        face = _face(bounds) if drawing.fits[group[0]].closed else None
+        shapes += bounds if face is None else [face]
+    return _together(shapes)
+
+
+def _face(bounds: list[Any]) -> Any | None:
+    """The plane face within the first wire and outside the others, None where there is none."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+    from OCP.BRepCheck import BRepCheck_Analyzer
+    from OCP.gp import gp_Pln
+    from OCP.ShapeFix import ShapeFix_Face
+
+    maker = BRepBuilderAPI_MakeFace(gp_Pln(), bounds[0], True)
+    for hole in bounds[1:]:
+        maker.Add(hole)
+    if not maker.IsDone():
+        return None
+    fix = ShapeFix_Face(maker.Face())
+    fix.FixOrientation()  # holes run the other way
+    face = fix.Face()
+    return face if BRepCheck_Analyzer(face).IsValid() else None
+
+
+def _together(shapes: list[Any]) -> Any:
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Compound
+
+    if len(shapes) == 1:
+        return shapes[0]
+    compound, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(compound)
+    for shape in shapes:
+        builder.Add(compound, shape)
+    return compound
+
+
+def _wire(fit: Fit, scale: float) -> Any:
+    """Edges end to end; neighbours share their vertex."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeWire
+
+    parts = entities(fit)
+    starts = [_vertex(part.curve.control_points[0], scale) for part in parts]
+    end = starts[0] if fit.closed else _vertex(parts[-1].curve.control_points[-1], scale)
+    maker = BRepBuilderAPI_MakeWire()
+    for part, first, last in zip(parts, starts, [*starts[1:], end], strict=True):
+        if part.is_line:
+            edge = BRepBuilderAPI_MakeEdge(first, last)
+        else:
+            edge = BRepBuilderAPI_MakeEdge(_geometry(part, scale), first, last, 0.0, 1.0)
+        if not edge.IsDone():
+            raise FormatError("OpenCASCADE refuses a piece of the curve: it is too small for CAD")
+        maker.Add(edge.Edge())
+        if not maker.IsDone():
+            raise FormatError("OpenCASCADE cannot join the pieces: they are too small for CAD")
+    return maker.Wire()
+
+
+def _vertex(point: Any, scale: float) -> Any:
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeVertex
+
+    return BRepBuilderAPI_MakeVertex(_point(point, scale)).Vertex()
+
+
+def _point(point: Any, scale: float) -> Any:
+    from OCP.gp import gp_Pnt
+
+    return gp_Pnt(float(scale * point[0]), float(scale * point[1]), 0.0)
+
+
+def _geometry(part: Entity, scale: float) -> Any:
+    """Non-rational clamped B-spline over [0, 1]."""
+    from OCP.collections import Array1_double, Array1_gp_Pnt, Array1_int
+    from OCP.Geom import Geom_BSplineCurve
+
+    curve = part.curve
+    knots, counts = np.unique(curve.knots, return_counts=True)
+    poles = Array1_gp_Pnt(1, curve.n_control_points)
+    for index, point in enumerate(curve.control_points, start=1):
+        poles.SetValue(index, _point(point, scale))
+    values, multiplicities = Array1_double(1, len(knots)), Array1_int(1, len(knots))
+    for index, (knot, count) in enumerate(zip(knots.tolist(), counts.tolist(), strict=True), 1):
+        values.SetValue(index, knot)
+        multiplicities.SetValue(index, count)
+    return Geom_BSplineCurve(poles, values, multiplicities, curve.degree)
+
+
+def outlines(shape: Any, unit: str) -> Outlines:
+    """Curves of an OpenCASCADE shape: its edges, those that meet chained to outlines."""
+    from OCP.TopAbs import TopAbs_EDGE
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    if shape is None or shape.IsNull():
+        raise FormatError("the file holds no geometry")
+    runs: list[list[Piece]] = []
+    seen: list[Any] = []
+    explorer = TopExp_Explorer(shape, TopAbs_EDGE)
+    while explorer.More():
+        edge = TopoDS.Edge(explorer.Current())
+        if not any(edge.IsSame(other) for other in seen):
+            seen.append(edge)
+            runs.append(_pieces(edge))
+        explorer.Next()
+    if not any(runs):
+        raise FormatError("the file holds no curve; points and surfaces without edges are not read")
+    return Outlines(chained(runs), unit=unit)
+
+
+def _pieces(edge: Any) -> list[Piece]:
+    """Geometry of an edge as clamped plane pieces over [0, 1]."""
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepAdaptor import BRepAdaptor_Curve
+    from OCP.Geom import Geom_TrimmedCurve
+    from OCP.GeomAbs import GeomAbs_CurveType
+
+    if BRep_Tool.Degenerated_s(edge):
+        return []
+    adaptor = BRepAdaptor_Curve(edge)
+    begin, end = adaptor.FirstParameter(), adaptor.LastParameter()
+    if adaptor.GetType() == GeomAbs_CurveType.GeomAbs_Line:
+        ends = np.array([_xyz(adaptor.Value(at)) for at in (begin, end)])
+        return [Piece("line", 1, np.array([0.0, 0, 1, 1]), _flat(ends))]
+    curve = adaptor.Curve().Curve().Transformed(adaptor.Trsf())
+    return [_spline_piece(Geom_TrimmedCurve(curve, begin, end))]
+
+
+def _spline_piece(curve: Any) -> Piece:
+    """Any curve as a non-rational B-spline: exact if it is one, else within CONVERTED."""
+    from OCP.GeomAbs import GeomAbs_Shape
+    from OCP.GeomConvert import GeomConvert, GeomConvert_ApproxCurve
+
+    spline = GeomConvert.CurveToBSplineCurve_s(curve)
+    if spline.IsRational() or spline.Degree() > 9:
+        size = max(abs(value) for i in range(1, spline.NbPoles() + 1) for value in
+                   _xyz(spline.Pole(i)))  # fmt: skip
+        near = GeomConvert_ApproxCurve(spline, CONVERTED * size, GeomAbs_Shape.GeomAbs_C1, 200, 8)
+        if not near.HasResult() or near.MaxError() > 10 * CONVERTED * size:
+            raise FormatError("a rational curve of the file cannot be written as a B-spline")
+        spline = near.Curve()
+    if spline.IsPeriodic():
+        spline.SetNotPeriodic()
+    knots = np.repeat(
+        [spline.Knot(i) for i in range(1, spline.NbKnots() + 1)],
+        [spline.Multiplicity(i) for i in range(1, spline.NbKnots() + 1)],
+    )
+    knots = (knots - knots[0]) / (knots[-1] - knots[0])
+    poles = _flat(np.array([_xyz(spline.Pole(i)) for i in range(1, spline.NbPoles() + 1)]))
+    kind = "spline" if spline.NbKnots() > 2 else "line" if spline.Degree() == 1 else "bezier"
+    return Piece(kind, spline.Degree(), knots, poles)
+
+
+def _xyz(point: Any) -> tuple[float, float, float]:
+    return point.X(), point.Y(), point.Z()
+
+
+def _flat(points: Any) -> Any:
+    """The x and y of points that lie in a plane z = constant."""
+    if np.ptp(points[:, 2]) > FLAT * max(1.0, np.abs(points).max()):
+        raise FormatError(
+            "a curve of the file does not lie in a plane z = constant; project it onto xy first"
+        )
+    return np.ascontiguousarray(points[:, :2])
+
+
+@contextlib.contextmanager
+def silent() -> Iterator[None]:
+    """OpenCASCADE writes its progress to file descriptor 1, past Python's sys.stdout."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    try:
+        with open(os.devnull, "wb") as nowhere:  # noqa: PTH123 - a device, not a path
+            os.dup2(nowhere.fileno(), 1)
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+
+
+def stream(data: bytes = b"") -> io.BytesIO:
+    """What OpenCASCADE reads from or writes to."""
+    return io.BytesIO(data)

@@ -1,0 +1,110 @@
+"""PDF: exact cubic Beziers, filled or stroked, on a page of the drawing's size."""
+
+from __future__ import annotations
+
+import zlib
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.formats.cubics import as_cubics, groups, is_straight, turning_points
+from shapespline.units import MILLIMETRES
+
+if TYPE_CHECKING:
+    from shapespline.drawing import Drawing
+    from shapespline.typing import FloatArray
+
+# Of the longer side: the border, and the width of a stroke.
+MARGIN, STROKE = 0.02, 0.0025
+# A drawing without a unit has a longer side of so many points, that of a sheet of A4.
+LONGER_SIDE = 842.0
+# Coordinates in points with so many decimals: a ten-thousandth of what a printer resolves.
+DECIMALS = 6
+
+
+def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
+    """Bytes of a PDF of one page.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        In its unit (pixels at 96 per inch); without one the longer side is that of A4.
+    fill : bool
+        Fill closed curves black by the even-odd rule; otherwise they are stroked like open ones.
+
+    Returns
+    -------
+    bytes
+        The same for the same drawing: no time, no random identity.
+    """
+    cubics = [as_cubics(fit) for fit in drawing]
+    extremes = np.concatenate([turning_points(curves) for curves in cubics])
+    low, high = extremes.min(axis=0), extremes.max(axis=0)
+    longer = float((high - low).max()) or 1.0
+    scale = _points_a_unit(drawing.unit) or LONGER_SIDE / longer / (1 + 2 * MARGIN)
+    corner = low - MARGIN * longer
+    width, height = scale * (high - low + 2 * MARGIN * longer)
+    lines = [f"{_number(STROKE * scale * longer)} w 1 j 1 J"]
+    for group in groups(drawing):
+        filled = fill and drawing.fits[group[0]].closed
+        lines += [
+            _path(scale * (cubics[index] - corner), drawing.fits[index].closed) for index in group
+        ]
+        lines.append("f*" if filled else "S")
+    content = zlib.compress("\n".join(lines).encode("ascii"), 9)
+    box = f"[0 0 {_number(width)} {_number(height)}]"
+    return _file(
+        [
+            b"<< /Type /Catalog /Pages 2 0 R >>",
+            b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+            f"<< /Type /Page /Parent 2 0 R /MediaBox {box} /Contents 4 0 R"
+            " /Resources << >> >>".encode("ascii"),
+            f"<< /Length {len(content)} /Filter /FlateDecode >>\nstream\n".encode("ascii")
+            + content
+            + b"\nendstream",
+        ]
+    )
+
+
+def _points_a_unit(unit: str | None) -> float | None:
+    if unit == "px":
+        return 72 / 96
+    return MILLIMETRES[unit] / MILLIMETRES["pt"] if unit is not None else None
+
+
+def _path(cubics: FloatArray, closed: bool) -> str:
+    """Operators of one curve: m, then c or l for each piece, and h if closed."""
+    commands = [f"{_pair(cubics[0, 0])} m"]
+    for cubic in cubics:
+        if is_straight(cubic):
+            commands.append(f"{_pair(cubic[3])} l")
+        else:
+            commands.append(" ".join(map(_pair, cubic[1:])) + " c")
+    return "\n".join([*commands, "h"] if closed else commands)
+
+
+def _pair(point: FloatArray) -> str:
+    return f"{_number(point[0])} {_number(point[1])}"
+
+
+def _number(value: float) -> str:
+    """PDF knows no exponents."""
+    return f"{value + 0.0:.{DECIMALS}f}".rstrip("0").rstrip(".")
+
+
+def _file(objects: list[bytes]) -> bytes:
+    """Objects, the table of where they begin, and the trailer."""
+    out = bytearray(b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n")
+    starts = []
+    for number, content in enumerate(objects, start=1):
+        starts.append(len(out))
+        out += b"%d 0 obj\n%b\nendobj\n" % (number, content)
+    table = len(out)
+    out += b"xref\n0 %d\n0000000000 65535 f \n" % (len(objects) + 1)
+    for start in starts:
+        out += b"%010d 00000 n \n" % start
+    out += b"trailer\n<< /Size %d /Root 1 0 R >>\nstartxref\n%d\n%%%%EOF\n" % (
+        len(objects) + 1,
+        table,
+    )
+    return bytes(out)

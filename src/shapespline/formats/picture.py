@@ -1,0 +1,85 @@
+"""PNG: a picture of the curves, black on white."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PIL import Image, ImageChops, ImageDraw
+
+from shapespline.arrays import whole_number
+from shapespline.errors import InvalidInputError
+from shapespline.exact import sampled
+from shapespline.formats.cubics import groups
+
+if TYPE_CHECKING:
+    from shapespline.drawing import Drawing
+    from shapespline.typing import FloatArray
+
+# Of the longer side: the border, and the width of a stroke.
+MARGIN, STROKE = 0.02, 0.004
+LONGER_SIDE, LARGEST_SIDE = 1024, 16_384
+# Drawn larger and reduced: each pixel then has the part of it that is covered.
+OVERSAMPLING = 4
+
+
+def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) -> bytes:
+    """Bytes of a PNG picture, anti-aliased.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        With a frame the picture shows the frame, else the curves and a margin.
+    fill : bool
+        Fill closed curves by the even-odd rule; otherwise they are stroked like open ones.
+    pixels : int
+        Pixels of the longer side, up to 16 384.
+
+    Raises
+    ------
+    InvalidInputError
+        If ``pixels`` is out of range.
+    """
+    longest = whole_number(pixels)
+    if longest is None or not 1 <= longest <= LARGEST_SIDE:
+        raise InvalidInputError(
+            f"pixels must be a whole number from 1 to {LARGEST_SIDE}, got {pixels!r}"
+        )
+    lines = [sampled(fit.spline)[0].polyline for fit in drawing]
+    low, high = _window(drawing, lines)
+    longer = float((high - low).max())
+    scale = OVERSAMPLING * longest / longer
+    width, height = (
+        int(np.ceil(side * longest / longer)) * OVERSAMPLING for side in (high - low).tolist()
+    )
+    size = (width, height)
+    ink = Image.new("1", size)
+    for group in groups(drawing):
+        filled = fill and drawing.fits[group[0]].closed
+        for index in group:
+            part = Image.new("1", size)
+            points = scale * (lines[index] - low)
+            at = [(float(x), float(scale * (high[1] - low[1]) - y)) for x, y in points]
+            if filled:
+                ImageDraw.Draw(part).polygon(at, fill=1)
+                ink = ImageChops.logical_xor(ink, part)
+            else:
+                stroke = max(1, round(STROKE * scale * longer))
+                ImageDraw.Draw(part).line(at, fill=1, width=stroke, joint="curve")
+                ink = ImageChops.logical_or(ink, part)
+    picture = ImageChops.invert(ink.convert("L")).reduce(OVERSAMPLING)
+    out = io.BytesIO()
+    picture.save(out, format="PNG", optimize=True)
+    return out.getvalue()
+
+
+def _window(drawing: Drawing, lines: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Lower left and upper right corner of what is shown."""
+    if drawing.frame is not None:
+        x, y, width, height = drawing.frame
+        return np.array([x, y]), np.array([x + width, y + height])
+    everything = np.concatenate(lines)
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    margin = (MARGIN + STROKE) * float((high - low).max())
+    return low - margin, high + margin

@@ -1,0 +1,165 @@
+"""3dm, the file of Rhino: NURBS curves and lines, an outline of several as one polycurve.
+
+Needs the extra ``rhino``. The library writes the time and random identities into the file: of all
+formats this is the one whose bytes differ from run to run. The geometry does not.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shapespline.drawing import Piece
+from shapespline.errors import FormatError, MissingExtraError
+from shapespline.exact import Outlines
+from shapespline.formats.chains import chained
+from shapespline.formats.entities import entities
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from shapespline.drawing import Drawing
+    from shapespline.formats.entities import Entity
+    from shapespline.typing import FloatArray
+
+# Rhino's names of units.
+UNITS = {
+    "um": "Microns", "mm": "Millimeters", "cm": "Centimeters", "dm": "Decimeters", "m": "Meters",
+    "km": "Kilometers", "mil": "Mils", "in": "Inches", "ft": "Feet", "yd": "Yards", "mi": "Miles",
+}  # fmt: skip
+# The version of Rhino whose files every later one reads.
+VERSION = 6
+# Of the largest coordinate: what counts as the plane z = constant.
+FLAT = 1e-9
+
+
+def _rhino3dm() -> Any:
+    try:
+        import rhino3dm
+    except ImportError as error:
+        raise MissingExtraError(
+            "3dm files need rhino3dm: pip install 'shapespline[rhino]'"
+        ) from error
+    return rhino3dm
+
+
+def encode(drawing: Drawing) -> bytes:
+    """Bytes of a 3dm file.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        In its unit, where Rhino knows it.
+
+    Raises
+    ------
+    MissingExtraError
+        If rhino3dm is not installed.
+    """
+    rhino3dm = _rhino3dm()
+    model = rhino3dm.File3dm()
+    if drawing.unit in UNITS:
+        model.Settings.ModelUnitSystem = getattr(rhino3dm.UnitSystem, UNITS[drawing.unit])
+    for fit in drawing:
+        curves = [_curve(rhino3dm, entity) for entity in entities(fit)]
+        if len(curves) == 1:
+            model.Objects.AddCurve(curves[0])
+            continue
+        together = rhino3dm.PolyCurve()
+        for curve in curves:
+            together.AppendSegment(curve)
+        model.Objects.AddCurve(together)
+    options = rhino3dm.File3dmWriteOptions()
+    options.Version = VERSION
+    return _bytes(model, options)
+
+
+def _bytes(model: Any, options: Any) -> bytes:
+    """The library writes to a path only."""
+    import tempfile
+    from pathlib import Path
+
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / "drawing.3dm"
+        if not model.Write(str(target), options.Version):
+            raise FormatError("rhino3dm could not write the drawing")
+        return target.read_bytes()
+
+
+def _curve(rhino3dm: Any, entity: Entity) -> Any:
+    """A line, or a clamped non-rational NURBS curve; openNURBS stores no first and last knot."""
+    points = [rhino3dm.Point3d(float(x), float(y), 0.0) for x, y in entity.curve.control_points]
+    if entity.is_line:
+        return rhino3dm.LineCurve(*points)
+    degree = entity.curve.degree
+    curve = rhino3dm.NurbsCurve(3, False, degree + 1, len(points))
+    for index, point in enumerate(points):
+        curve.Points[index] = rhino3dm.Point4d(point.X, point.Y, point.Z, 1.0)
+    for index, knot in enumerate(entity.curve.knots[1:-1].tolist()):
+        curve.Knots[index] = knot
+    return curve
+
+
+def read(path: Path) -> Outlines:
+    """Curves of a 3dm file in a plane z = constant: lines, polylines, NURBS, joined ones.
+
+    Raises
+    ------
+    MissingExtraError
+        If rhino3dm is not installed.
+    FormatError
+        If the file is no 3dm file, holds no curve, a rational one or one that is not plane.
+    """
+    rhino3dm = _rhino3dm()
+    if not path.read_bytes()[:32].startswith(b"3D Geometry File Format"):
+        raise FormatError("this is no 3dm file: it does not begin with 3D Geometry File Format")
+    model = rhino3dm.File3dm.Read(str(path))
+    if model is None:
+        raise FormatError("rhino3dm cannot read the file: it is damaged")
+    runs = [
+        _pieces(rhino3dm, entry.Geometry)
+        for entry in model.Objects
+        if isinstance(entry.Geometry, rhino3dm.Curve)
+    ]
+    if not runs:
+        raise FormatError("the file holds no curve")
+    named = {getattr(rhino3dm.UnitSystem, name): unit for unit, name in UNITS.items()}
+    return Outlines(chained(runs), unit=named.get(model.Settings.ModelUnitSystem))
+
+
+def _pieces(rhino3dm: Any, curve: Any) -> list[Piece]:
+    """Clamped plane pieces over [0, 1]."""
+    if isinstance(curve, rhino3dm.PolyCurve):
+        parts = [curve.SegmentCurve(index) for index in range(curve.SegmentCount)]
+        return [piece for part in parts for piece in _pieces(rhino3dm, part)]
+    if isinstance(curve, rhino3dm.PolylineCurve):
+        points = _flat([curve.Point(index) for index in range(curve.PointCount)])
+        ends = np.array([0.0, 0.0, 1.0, 1.0])
+        return [Piece("line", 1, ends, points[k : k + 2]) for k in range(len(points) - 1)]
+    spline = curve.ToNurbsCurve()
+    if spline is None or spline.IsRational:
+        raise FormatError(
+            "the file holds a rational curve (an arc or a circle); in Rhino, rebuild it or convert"
+            " it to a non-rational curve of degree 3 first"
+        )
+    points = _flat([spline.Points[index] for index in range(len(spline.Points))])
+    inner = np.array([spline.Knots[index] for index in range(len(spline.Knots))])
+    degree = spline.Degree
+    knots = np.concatenate([inner[:1], inner, inner[-1:]])
+    clamped = (knots[: degree + 1] == knots[0]).all() and (knots[-degree - 1 :] == knots[-1]).all()
+    if not clamped or not 1 <= degree <= 9:
+        raise FormatError("the file holds a curve that is not clamped, or of a degree above 9")
+    knots = (knots - knots[0]) / (knots[-1] - knots[0])
+    without_inner = len(points) == degree + 1
+    kind = "spline" if not without_inner else "line" if degree == 1 else "bezier"
+    return [Piece(kind, degree, knots, points)]
+
+
+def _flat(points: list[Any]) -> FloatArray:
+    array = np.array([(point.X, point.Y, point.Z) for point in points])
+    if np.ptp(array[:, 2]) > FLAT * max(1.0, float(np.abs(array).max())):
+        raise FormatError(
+            "a curve of the file does not lie in a plane z = constant; project it onto xy first"
+        )
+    return np.ascontiguousarray(array[:, :2])

@@ -1,0 +1,97 @@
+"""A real cluster on this machine: two worker processes, one of them killed while it works."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_array_equal
+from tests.test_batch import outlines
+
+import shapespline as ss
+
+distributed = pytest.importorskip("dask.distributed", reason="needs shapespline[cluster]")
+
+pytestmark = [
+    pytest.mark.slow,
+    # A worker that is killed on purpose leaves its sockets to the garbage collector.
+    pytest.mark.filterwarnings("ignore::ResourceWarning"),
+    pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning"),
+]
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as running:
+        yield running
+
+
+def test_a_killed_worker_loses_nothing(cluster):
+    given = [*outlines(1200), np.zeros((2, 2))]
+    alone = ss.fit_many(given, n_control_points=9)
+    killed = threading.Event()
+
+    def kill_one(done, total):
+        if not killed.is_set():
+            killed.set()
+            (victim, *_) = client.run(os.getpid).values()
+            os.kill(victim, signal.SIGKILL)
+
+    with distributed.Client(cluster) as client:
+        before = set(client.run(os.getpid).values())
+        together = ss.fit_many(given, executor=client, progress=kill_one, n_control_points=9)
+        client.wait_for_workers(2, timeout=60)
+        after = set(client.run(os.getpid).values())
+    assert killed.is_set()
+    assert before != after  # the killed one was replaced
+    assert sorted(together.failures) == sorted(alone.failures) == [1200]
+    for mine, theirs in zip(alone.fits[:1200], together.fits[:1200], strict=True):
+        assert_array_equal(mine.control_points, theirs.control_points)
+
+
+def test_the_command_line_uses_a_scheduler(cluster, tmp_path):
+    folder = tmp_path / "in"
+    folder.mkdir()
+    for index, contour in enumerate(outlines(4)):
+        np.savetxt(folder / f"{index}.csv", contour.points, delimiter=",")
+    (folder / "broken.csv").write_text("1,2\n3,x\n")
+    arguments = [sys.executable, "-m", "shapespline", "fit", str(folder), "-f", "svg", "-n", "9"]
+    for name, extra in (
+        ("alone", []),
+        ("cluster", ["--scheduler", cluster.scheduler_address]),
+    ):
+        done = subprocess.run(
+            [*arguments, "-o", str(tmp_path / name), *extra],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 1
+        assert "line 2" in done.stderr
+        assert "Traceback" not in done.stderr
+    names = sorted(path.name for path in (tmp_path / "alone").iterdir())
+    assert len(names) == 4
+    for name in names:
+        alone, together = (Path(tmp_path, where, name) for where in ("alone", "cluster"))
+        assert alone.read_bytes() == together.read_bytes()
+
+
+def test_no_scheduler_is_a_sentence(tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-m", "shapespline", "fit", __file__, "-o", str(tmp_path / "x.svg"),
+         "--scheduler", "tcp://127.0.0.1:1"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert "no scheduler answers at tcp://127.0.0.1:1" in done.stderr
+    assert "Traceback" not in done.stderr
