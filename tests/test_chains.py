@@ -9,7 +9,11 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from shapespline.drawing import Piece
-from shapespline.formats.chains import chained
+from shapespline.formats import chains
+
+
+def chained(pieces):
+    return chains.chained([[piece] for piece in pieces])
 
 
 def line(a, b):

@@ -26,7 +26,7 @@ TIERS = [
     {
         "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
         "ordering", "formats", "plot", "comparison", "polygons", "joining", "exact",
-        "scaling",
+        "scaling", "arcs",
     },
     {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
     {"fitting"},
@@ -176,7 +176,7 @@ def test_formats_and_plot_never_fit(name):
     allowed = {
         "contour", "drawing", "curve", "knots", "errors", "typing", "arrays", "_version",
         "formats", "trace", "channels", "polygons", "nesting", "joining", "exact",
-        "units", "scaling",
+        "units", "scaling", "arcs",
     }  # fmt: skip
     for other, _, _ in own_imports(MODULES[name]):
         assert first(other) in allowed, f"{name} imports {other}"

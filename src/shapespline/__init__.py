@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         MissingExtraError,
         OrderError,
         ShapesplineError,
+        SkippedContentWarning,
         UnknownFormatError,
     )
     from shapespline.fitting import fit_curve
@@ -55,6 +56,7 @@ _HOME = {
     "SENSIBLE": "reading",
     "Shape": "contour",
     "ShapesplineError": "errors",
+    "SkippedContentWarning": "errors",
     "Status": "drawing",
     "UnknownFormatError": "errors",
     "compare": "comparison",
@@ -88,6 +90,7 @@ __all__ = [
     "Reading",
     "Shape",
     "ShapesplineError",
+    "SkippedContentWarning",
     "Status",
     "UnknownFormatError",
     "__version__",

@@ -210,7 +210,11 @@ class BSplineCurve:
         >>> ring.clamped().n_control_points, bool((ring([0.3]) == ring.clamped()([0.3])).all())
         (6, True)
         """
-        return _clamped(self.knots, self.coefficients, self.degree) if self.periodic else self
+        if not self.periodic:
+            return self
+        knots, points = clamped_ends(self.knots, self.coefficients, self.degree)
+        points[-1] = points[0]  # knot insertion may miss it by a rounding
+        return BSplineCurve(knots, points, self.degree)
 
     @classmethod
     def from_scipy(cls, spline: BSpline) -> BSplineCurve:
@@ -241,21 +245,7 @@ class BSplineCurve:
             and np.array_equal(coefficients[m:], coefficients[:degree])
         ):
             return cls(knots, coefficients[:m], degree, periodic=True)
-        return _clamped(knots, coefficients, degree)
-
-
-def _clamped(knots: FloatArray, coefficients: FloatArray, degree: int) -> BSplineCurve:
-    """The curve over the domain of its knots, clamped by knot insertion at both ends."""
-    begin, end = knots[degree], knots[len(coefficients)]
-    for at in (begin, end):
-        missing = degree - int(np.count_nonzero(knots == at))
-        for _ in range(max(missing, 0)):
-            knots, coefficients = _with_knot(knots, coefficients, degree, at)
-    first = int(np.searchsorted(knots, begin, side="right")) - degree
-    last = int(np.searchsorted(knots, end, side="left"))
-    inner = knots[first + degree : last]
-    knots = np.concatenate([np.full(degree + 1, begin), inner, np.full(degree + 1, end)])
-    return BSplineCurve(knots, coefficients[first - 1 : last], degree)
+        return cls(*clamped_ends(knots, coefficients, degree), degree)
 
 
 def _differentiated(
@@ -266,6 +256,22 @@ def _differentiated(
     difference = np.diff(coefficients, axis=0)
     slope = np.divide(degree * difference, width, out=np.zeros_like(difference), where=width > 0)
     return np.ascontiguousarray(knots[1:-1]), slope
+
+
+def clamped_ends(
+    knots: FloatArray, coefficients: FloatArray, degree: int
+) -> tuple[FloatArray, FloatArray]:
+    """Knots and coefficients of the same curve, clamped at the ends of its domain."""
+    begin, end = knots[degree], knots[len(coefficients)]
+    for at in (begin, end):
+        missing = degree - int(np.count_nonzero(knots == at))
+        for _ in range(max(missing, 0)):
+            knots, coefficients = _with_knot(knots, coefficients, degree, at)
+    first = int(np.searchsorted(knots, begin, side="right")) - degree
+    last = int(np.searchsorted(knots, end, side="left"))
+    inner = knots[first + degree : last]
+    knots = np.concatenate([np.full(degree + 1, begin), inner, np.full(degree + 1, end)])
+    return knots, coefficients[first - 1 : last].copy()
 
 
 def _with_knot(

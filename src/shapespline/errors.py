@@ -36,3 +36,7 @@ class MissingExtraError(ShapesplineError, ImportError):
 
 class DroppedPointsWarning(UserWarning):
     """Points that add nothing to the shape (repeated ones) were left out."""
+
+
+class SkippedContentWarning(UserWarning):
+    """Parts of a file that are no outlines were left out."""

@@ -44,6 +44,17 @@ def turn_between(before: Piece, after: Piece) -> float:
     return float(np.arctan2(u[0] * v[1] - u[1] * v[0], u @ v))
 
 
+def backwards(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
+    """The same pieces run through from their end to their beginning."""
+    return tuple(
+        piece._replace(
+            knots=1.0 - piece.knots[::-1],
+            control_points=np.ascontiguousarray(piece.control_points[::-1]),
+        )
+        for piece in reversed(pieces)
+    )
+
+
 def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
     """All pieces as one clamped B-spline over [0, 1]: the same curve.
 

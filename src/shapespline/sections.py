@@ -21,7 +21,7 @@ from shapespline.corners import LEAST_TURN, find_corners
 from shapespline.distance import Distances, two_sided_distance
 from shapespline.drawing import Piece
 from shapespline.errors import InvalidInputError
-from shapespline.joining import joined, turn_between
+from shapespline.joining import backwards, joined, turn_between
 from shapespline.knots import check_degree
 from shapespline.nodes import aligned
 
@@ -230,15 +230,7 @@ class WorkingFrame(NamedTuple):
             piece._replace(control_points=piece.control_points / self.scale + self.middle)
             for piece in pieces
         )
-        if not self.reversed:
-            return pieces
-        return tuple(
-            piece._replace(
-                knots=1.0 - piece.knots[::-1],
-                control_points=np.ascontiguousarray(piece.control_points[::-1]),
-            )
-            for piece in reversed(pieces)
-        )
+        return backwards(pieces) if self.reversed else pieces
 
 
 def _canonical_order(points: FloatArray, *, closed: bool) -> tuple[IntArray, bool]:

@@ -61,7 +61,10 @@ FORMATS = (
     Format("NumPy", (".npy",), "npy", reads=True),
     Format("image", (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"), "image", reads=True),
     Format("picture", (".png",), "picture", writes=True),
-    Format("SVG", (".svg",), "svg", writes=True),
+    Format("SVG", (".svg",), "svg_reader", reads=True),
+    Format("SVG", (".svg",), "svg_writer", writes=True),
+    Format("DXF", (".dxf",), "dxf_reader", reads=True),
+    Format("DXF", (".dxf",), "dxf_writer", writes=True),
     Format("JSON", (".json",), "json", reads=True, writes=True),
     Format("STEP", (".step", ".stp"), "step", reads=True, writes=True),
     Format("IGES", (".iges", ".igs"), "iges", reads=True, writes=True),
@@ -128,8 +131,8 @@ def read(
     Traceback (most recent call last):
     ...
     shapespline.errors.UnknownFormatError: outline.xyz: no reader for '.xyz'; readable endings: \
-.3dm .bmp .csv .dat .geojson .iges .igs .jpeg .jpg .json .npy .png .step .stp .tif .tiff .tsv .txt \
-.xy
+.3dm .bmp .csv .dat .dxf .geojson .iges .igs .jpeg .jpg .json .npy .png .step .stp .svg .tif .tiff \
+.tsv .txt .xy
     """
     path = Path(path)
     if path.is_dir():

@@ -1,4 +1,4 @@
-"""Loose pieces that meet end to end, put together to outlines."""
+"""Loose runs of pieces that meet end to end, put together to outlines."""
 
 from __future__ import annotations
 
@@ -6,98 +6,79 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.drawing import Piece
+from shapespline.formats.outlines import closed_up, size_of
+from shapespline.joining import backwards
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from shapespline.typing import FloatArray, IntArray
+    from shapespline.drawing import Piece
+    from shapespline.typing import IntArray
 
-# Of the size of the drawing: ends nearer than this are one point.
-MEETING = 1e-7
+# Of the size of the drawing: ends nearer than this are meant to be one point.
+MEETING = 1e-6
 
 
-def chained(pieces: Sequence[Piece]) -> list[list[Piece]]:
-    """Pieces as outlines: each goes on where the one before it ends, turned round where need be.
+def chained(runs: Sequence[Sequence[Piece]]) -> list[list[Piece]]:
+    """Outlines of runs of pieces that meet end to end, in the order and direction of the first.
 
-    A chain ends where no other piece goes on, or more than one could; where a ring is all there
-    is, it begins with its first piece. Ends that meet become one point, to the bit.
+    Where more than two ends meet nothing is joined. Ends that meet are made equal.
+
+    Parameters
+    ----------
+    runs : sequence of sequences of Piece
+        In any order and direction.
 
     Examples
     --------
-    >>> ends = np.array([0.0, 0, 1, 1])
-    >>> a = Piece("line", 1, ends, np.array([[0.0, 0], [1, 0]]))
-    >>> b = Piece("line", 1, ends, np.array([[1.0, 1], [1, 0]]))
-    >>> [[piece.control_points.tolist() for piece in chain] for chain in chained([a, b])]
-    [[[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [1.0, 1.0]]]]
+    >>> from shapespline.formats.outlines import bezier
+    >>> sides = [[bezier([(0, 0), (4, 0)])], [bezier([(0, 3), (0, 0)])], [bezier([(4, 0), (0, 3)])]]
+    >>> [len(outline) for outline in chained(sides)]
+    [3]
     """
-    pieces = [piece for piece in pieces if np.ptp(piece.control_points, axis=0).any()]
-    if not pieces:
+    runs = [kept for kept in map(closed_up, runs) if kept]
+    if not runs:
         return []
-    points, ends = _meeting_points(pieces)
-    at: list[list[int]] = [[] for _ in points]
-    for index, pair in enumerate(ends.tolist()):
-        for node in pair:
-            at[node].append(index)
-    free = dict.fromkeys(range(len(pieces)))
-    chains = []
-    while free:
-        index = next(iter(free))
-        # Back to where the chain begins, or once around a ring; then along it.
-        _, begin = _walk(index, int(ends[index, 0]), ends, at)[-1]
-        first = next(i for i in at[begin] if i in free) if len(at[begin]) != 2 else index
-        other = ends[first, 1] if ends[first, 0] == begin else ends[first, 0]
-        if len(at[begin]) == 2:  # a ring
-            begin, other = ends[first]
-        walk = [(first, int(begin)), *_walk(first, int(other), ends, at)[:-1]]
-        chain = []
-        for i, node in walk:
-            if i not in free:
-                break
-            del free[i]
-            chain.append(_oriented(pieces[i], points, ends[i], node))
-        chains.append(chain)
-    return chains
+    partner = _partners(runs)
+    done: set[int] = set()
+    outlines: list[tuple[int, list[Piece]]] = []
+    # Those with a loose end first, from there, forwards if possible; then those that close.
+    begins, ends = np.flatnonzero(partner[::2] < 0) * 2, np.flatnonzero(partner[1::2] < 0) * 2 + 1
+    for start in [*begins.tolist(), *ends.tolist(), *range(0, 2 * len(runs), 2)]:
+        if start // 2 in done:
+            continue
+        chain: list[Piece] = []
+        end, first = start, start // 2
+        while end >= 0 and end // 2 not in done:
+            done.add(end // 2)
+            first = min(first, end // 2)
+            run = runs[end // 2]
+            chain += _met(chain, run if end % 2 == 0 else backwards(run))
+            end = int(partner[end ^ 1])
+        outlines.append((first, closed_up(chain)))
+    return [outline for _, outline in sorted(outlines, key=lambda item: item[0])]
 
 
-def _walk(index: int, node: int, ends: IntArray, at: list[list[int]]) -> list[tuple[int, int]]:
-    """Pieces met on leaving piece ``index`` through a node, each with the node it is entered by.
-
-    The last entry is (-1, the node where it ends).
-    """
-    found, start = [], index
-    while len(at[node]) == 2:
-        a, b = at[node]
-        index = b if a == index else a
-        if index == start:
-            break
-        found.append((index, node))
-        node = int(ends[index, 1] if ends[index, 0] == node else ends[index, 0])
-    return [*found, (-1, node)]
+def _met(chain: list[Piece], run: Sequence[Piece]) -> list[Piece]:
+    """A run that begins where the chain before it ends, exactly."""
+    if not chain:
+        return list(run)
+    points = run[0].control_points.copy()
+    points[0] = chain[-1].control_points[-1]
+    return [run[0]._replace(control_points=points), *run[1:]]
 
 
-def _meeting_points(pieces: Sequence[Piece]) -> tuple[FloatArray, IntArray]:
-    """Points where pieces end, those that meet taken as one, and the two of each piece."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
+def _partners(runs: Sequence[Sequence[Piece]]) -> IntArray:
+    """For each end (2 i the start of run i, 2 i + 1 its end) the one other end there, or -1."""
     from scipy.spatial import cKDTree
 
-    ends = np.concatenate([piece.control_points[[0, -1]] for piece in pieces])
-    everything = np.concatenate([piece.control_points for piece in pieces])
-    size = float(np.ptp(everything, axis=0).max())
-    pairs = cKDTree(ends).query_pairs(MEETING * size, output_type="ndarray")
-    links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(ends),) * 2)
-    _, label = connected_components(links, directed=False)
-    _, first, node = np.unique(label, return_index=True, return_inverse=True)
-    return ends[first], node.reshape(-1, 2)
-
-
-def _oriented(piece: Piece, points: FloatArray, ends: IntArray, begin: int) -> Piece:
-    """The piece from a node on, its ends put on the points of its nodes."""
-    control_points, knots, (first, last) = piece.control_points, piece.knots, ends.tolist()
-    if first != begin:
-        control_points, knots = control_points[::-1], 1.0 - knots[::-1]
-        first, last = last, first
-    control_points = np.array(control_points)
-    control_points[0], control_points[-1] = points[first], points[last]
-    return Piece(piece.kind, piece.degree, knots, control_points)
+    ends = np.array(
+        [point for run in runs for point in (run[0].control_points[0], run[-1].control_points[-1])]
+    )
+    near = MEETING * size_of([piece for run in runs for piece in run])
+    pairs = cKDTree(ends).query_pairs(near, output_type="ndarray")
+    partner = np.full(len(ends), -1)
+    meeting = np.bincount(pairs.ravel(), minlength=len(ends))
+    for one, other in pairs[(meeting[pairs] == 1).all(axis=1)]:
+        partner[one], partner[other] = other, one
+    return partner

@@ -86,11 +86,11 @@ def _cubics(piece: FloatArray, tolerance: float) -> Iterator[FloatArray]:
     if np.hypot(*(same_degree[0] - piece).T).max() <= tolerance:
         yield cubic
     else:
-        for half in _halves(piece):
+        for half in halves(piece):
             yield from _cubics(half, tolerance)
 
 
-def _halves(piece: FloatArray) -> tuple[FloatArray, FloatArray]:
+def halves(piece: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Cut a Bezier into its two halves (de Casteljau)."""
     first, last = [piece[0]], [piece[-1]]
     while len(piece) > 1:

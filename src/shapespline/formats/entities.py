@@ -44,7 +44,7 @@ def entities(fit: Fit) -> list[Entity]:
     [True, True, True, True]
     """
     if fit.spline.periodic and not fit.sections:
-        return [Entity(_with_equal_ends(fit.spline.clamped()), closed=True)]
+        return [Entity(fit.spline.clamped(), closed=True)]
     pieces = [part for piece in fit.pieces for part in _smooth_parts(piece)]
     breaks = [_breaks(a, b) for a, b in zip(pieces, [*pieces[1:], pieces[0]], strict=True)]
     if fit.closed:
@@ -72,13 +72,6 @@ def _breaks(before: Piece, after: Piece) -> bool:
     """Whether a new entity begins between two pieces: at corners and beside lines."""
     straight = before.degree == 1 or after.degree == 1
     return straight or abs(turn_between(before, after)) > CORNER_TURN
-
-
-def _with_equal_ends(curve: BSplineCurve) -> BSplineCurve:
-    """The last control point made the first to the bit: knot insertion may miss it by one."""
-    points = curve.control_points.copy()
-    points[-1] = points[0]
-    return BSplineCurve(curve.knots, points, curve.degree)
 
 
 def _smooth_parts(piece: Piece) -> list[Piece]:

@@ -145,18 +145,18 @@ def outlines(shape: Any, unit: str) -> Outlines:
 
     if shape is None or shape.IsNull():
         raise FormatError("the file holds no geometry")
-    pieces: list[Piece] = []
+    runs: list[list[Piece]] = []
     seen: list[Any] = []
     explorer = TopExp_Explorer(shape, TopAbs_EDGE)
     while explorer.More():
         edge = TopoDS.Edge(explorer.Current())
         if not any(edge.IsSame(other) for other in seen):
             seen.append(edge)
-            pieces += _pieces(edge)
+            runs.append(_pieces(edge))
         explorer.Next()
-    if not pieces:
+    if not any(runs):
         raise FormatError("the file holds no curve; points and surfaces without edges are not read")
-    return Outlines(chained(pieces), unit=unit)
+    return Outlines(chained(runs), unit=unit)
 
 
 def _pieces(edge: Any) -> list[Piece]:

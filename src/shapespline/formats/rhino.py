@@ -117,16 +117,15 @@ def read(path: Path) -> Outlines:
     model = rhino3dm.File3dm.Read(str(path))
     if model is None:
         raise FormatError("rhino3dm cannot read the file: it is damaged")
-    pieces = [
-        piece
+    runs = [
+        _pieces(rhino3dm, entry.Geometry)
         for entry in model.Objects
         if isinstance(entry.Geometry, rhino3dm.Curve)
-        for piece in _pieces(rhino3dm, entry.Geometry)
     ]
-    if not pieces:
+    if not runs:
         raise FormatError("the file holds no curve")
     named = {getattr(rhino3dm.UnitSystem, name): unit for unit, name in UNITS.items()}
-    return Outlines(chained(pieces), unit=named.get(model.Settings.ModelUnitSystem))
+    return Outlines(chained(runs), unit=named.get(model.Settings.ModelUnitSystem))
 
 
 def _pieces(rhino3dm: Any, curve: Any) -> list[Piece]:

@@ -15,7 +15,7 @@ from shapespline.curve import BSplineCurve
 from shapespline.drawing import Drawing
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats import cubics as beziers
-from shapespline.formats import svg as subject
+from shapespline.formats import svg_writer as subject
 from shapespline.knots import clamped_knots
 
 EPS = np.finfo(float).eps

@@ -1,0 +1,240 @@
+"""DXF drawings as exact curves, by ezdxf: entities that meet end to end become outlines."""
+
+from __future__ import annotations
+
+import logging
+import math
+import warnings
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from shapespline.errors import FormatError, SkippedContentWarning
+from shapespline.exact import Outlines
+from shapespline.formats.chains import chained
+from shapespline.formats.elliptic import elliptical_arc
+from shapespline.formats.outlines import bezier, size_of
+from shapespline.formats.splines import spline_pieces
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from pathlib import Path
+
+    from ezdxf.document import Drawing as Document
+
+    from shapespline.drawing import Piece
+    from shapespline.typing import FloatArray
+
+# Each kind has attributes of its own.
+Entity: TypeAlias = Any
+# $INSUNITS
+UNITS = {1: "in", 2: "ft", 3: "mi", 4: "mm", 5: "cm", 6: "m", 7: "km", 9: "mil", 10: "yd",
+         13: "um", 14: "dm"}  # fmt: skip
+# Entities after blocks have been exploded, and how deep blocks lie in one another.
+MOST_ENTITIES = 200_000
+DEEPEST = 50
+# Control points of a two-dimensional polyline that its curve does not pass.
+FRAME_POINT = 16
+# Heights that differ by more, of the size of the drawing, make it three-dimensional.
+FLAT = 1e-6
+
+
+def read(path: Path) -> Outlines:
+    """Read the outlines in the model space of a DXF drawing.
+
+    LINE, LWPOLYLINE, POLYLINE and SPLINE are exact; ARC, CIRCLE, ELLIPSE and bulges become cubics
+    within a billionth of their size, as do splines with weights. Blocks are exploded, and entities
+    that meet end to end are joined. Layers that are off or frozen are left out; heights are, too.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    Outlines
+        In the unit that $INSUNITS names, if it does.
+
+    Raises
+    ------
+    FormatError
+        If the file is no DXF, is cut off or damaged, or holds no curve.
+
+    Warns
+    -----
+    SkippedContentWarning
+        If there are entities that are no curves, such as text, or heights that differ.
+    """
+    document = _document(path)
+    runs: list[list[Piece]] = []
+    heights: list[float] = []
+    skipped: dict[str, None] = {}
+    for entity in _visible(document):
+        kind = entity.dxftype()
+        convert = PIECES.get(kind)
+        if convert is None:
+            skipped[kind] = None
+            continue
+        try:
+            points = convert(entity, heights)
+        except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError) as error:
+            raise FormatError(f"a {kind} cannot be understood: {error}") from error
+        runs.append(points)
+    finite = [run for run in runs if _is_finite(run)]
+    if len(finite) < len(runs):
+        raise FormatError("a coordinate is not a finite number")
+    curves = chained(runs)
+    if not curves:
+        raise FormatError(
+            "the model space holds no curve" + (f", only {', '.join(skipped)}" if skipped else "")
+        )
+    size = size_of([piece for pieces in curves for piece in pieces])
+    remarks = []
+    if skipped:
+        remarks.append(f"entities that are no curves were left out: {', '.join(skipped)}")
+    if np.ptp(heights or [0.0]) > FLAT * size:
+        remarks.append("the drawing is not flat, and was taken as seen from above")
+    for remark in remarks:
+        warnings.warn(f"{path.name}: {remark}", SkippedContentWarning, stacklevel=2)
+    return Outlines(curves, None, UNITS.get(document.header.get("$INSUNITS", 0)))
+
+
+def _document(path: Path) -> Document:
+    import ezdxf
+
+    logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
+    try:
+        return ezdxf.readfile(path)
+    except (ezdxf.DXFError, OSError, UnicodeError) as error:
+        raise FormatError(f"no DXF drawing, or damaged: {error}") from error
+    except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError) as error:
+        # Whatever a damaged file makes the library stumble over.
+        raise FormatError(f"the DXF drawing is damaged: {error!r}") from error
+
+
+def _visible(document: Document) -> Iterator[Entity]:
+    """Entities of the model space that are shown, blocks exploded."""
+    hidden = {
+        layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()
+    }
+    budget = MOST_ENTITIES
+
+    def exploded(entities: Iterable[Entity], depth: int) -> Iterator[Entity]:
+        nonlocal budget
+        for entity in entities:
+            budget -= 1
+            if budget < 0 or depth > DEEPEST:
+                raise FormatError(
+                    f"its blocks hold more than {MOST_ENTITIES} entities or lie in one another"
+                    f" more than {DEEPEST} deep; explode and thin them in the drawing program"
+                )
+            if entity.dxf.get("invisible", 0) or entity.dxf.layer.lower() in hidden:
+                continue
+            if entity.dxftype() != "INSERT":
+                yield entity
+            elif entity.mcount > 1:
+                yield from exploded(entity.multi_insert(), depth + 1)
+            else:
+                yield from exploded(entity.virtual_entities(), depth + 1)
+
+    yield from exploded(document.modelspace(), 0)
+
+
+def _is_finite(run: list[Piece]) -> bool:
+    return all(bool(np.isfinite(piece.control_points).all()) for piece in run)
+
+
+# Pieces of each kind of entity; heights are noted.
+
+
+def _flat(points: Iterable[object], heights: list[float]) -> FloatArray:
+    """Points of the world without their heights, shape (n, 2)."""
+    from ezdxf.math import Vec3
+
+    found = np.array([Vec3(point).xyz for point in points], dtype=np.float64).reshape(-1, 3)
+    heights += [float(found[:, 2].min()), float(found[:, 2].max())] if len(found) else []
+    return found[:, :2]
+
+
+def _line(entity: Entity, heights: list[float]) -> list[Piece]:
+    return [bezier(_flat((entity.dxf.start, entity.dxf.end), heights))]
+
+
+def _arc(entity: Entity, heights: list[float]) -> list[Piece]:
+    ocs, radius = entity.ocs(), entity.dxf.radius
+    centre = _flat([ocs.to_wcs(entity.dxf.center)], heights)[0]
+    first, second = _flat([ocs.to_wcs((radius, 0, 0)), ocs.to_wcs((0, radius, 0))], [])
+    if entity.dxftype() == "CIRCLE":
+        return elliptical_arc(centre, first, second, 0.0, 2 * math.pi)
+    begin, end = math.radians(entity.dxf.start_angle), math.radians(entity.dxf.end_angle)
+    return elliptical_arc(centre, first, second, begin, _turn(begin, end))
+
+
+def _ellipse(entity: Entity, heights: list[float]) -> list[Piece]:
+    centre = _flat([entity.dxf.center], heights)[0]
+    first, second = _flat([entity.dxf.major_axis, entity.minor_axis], [])
+    begin, end = entity.dxf.start_param, entity.dxf.end_param
+    return elliptical_arc(centre, first, second, begin, _turn(begin, end))
+
+
+def _turn(begin: float, end: float) -> float:
+    """Anticlockwise angle, above 0 and up to a full turn."""
+    turn = math.fmod(end - begin, 2 * math.pi)
+    # Angles come in degrees or with few digits: a rounding short of a turn is a turn.
+    return turn + 2 * math.pi if turn <= 1e-12 else turn
+
+
+def _polyline(entity: Entity, heights: list[float]) -> list[Piece]:
+    ocs = entity.ocs()
+    if entity.dxftype() == "LWPOLYLINE":
+        given = [(x, y, entity.dxf.elevation, bulge) for x, y, bulge in entity.get_points("xyb")]
+        closed = entity.closed
+    else:
+        if not (entity.is_2d_polyline or entity.is_3d_polyline):
+            return []  # meshes
+        vertices = [v.dxf for v in entity.vertices if not v.dxf.flags & FRAME_POINT]
+        given = [(*v.location.xyz, v.get("bulge", 0.0)) for v in vertices]
+        closed = entity.is_closed
+        if entity.is_3d_polyline:
+            ocs = None
+    if len(given) < 2:
+        return []
+    points, bulges = np.array(given)[:, :3], np.array(given)[:, 3]
+    world = _flat(points if ocs is None else ocs.points_to_wcs(points), heights)
+    # Seen from behind, left is right.
+    bulges = bulges if ocs is None or ocs.uz.z >= 0 else -bulges
+    after = np.roll(world, -1, axis=0)
+    last = len(world) if closed else len(world) - 1
+    return [piece for k in range(last) for piece in _bulging(world[k], after[k], float(bulges[k]))]
+
+
+def _bulging(begin: FloatArray, end: FloatArray, bulge: float) -> list[Piece]:
+    """A line, or an arc whose included angle has four times the arc tangent of the bulge."""
+    if bulge == 0.0 or (begin == end).all():
+        return [bezier([begin, end])]
+    chord = end - begin
+    left = np.array([-chord[1], chord[0]])
+    centre = 0.5 * (begin + end) + (1 - bulge**2) / (4 * bulge) * left
+    first = begin - centre
+    second = np.array([-first[1], first[0]])
+    pieces = elliptical_arc(centre, first, second, 0.0, 4 * math.atan(bulge))
+    pieces[0].control_points[0], pieces[-1].control_points[-1] = begin, end
+    return pieces
+
+
+def _spline(entity: Entity, heights: list[float]) -> list[Piece]:
+    spline = entity.construction_tool()  # makes a curve of fit points where there is no other
+    points = _flat(spline.control_points, heights)
+    weights = list(spline.weights()) or None
+    return spline_pieces(spline.degree, list(spline.knots()), points, weights)
+
+
+PIECES: dict[str, Callable[[Entity, list[float]], list[Piece]]] = {
+    "LINE": _line,
+    "ARC": _arc,
+    "CIRCLE": _arc,
+    "ELLIPSE": _ellipse,
+    "LWPOLYLINE": _polyline,
+    "POLYLINE": _polyline,
+    "SPLINE": _spline,
+}

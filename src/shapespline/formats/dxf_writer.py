@@ -1,0 +1,125 @@
+"""DXF R2000 by ezdxf: splines and lines, or polylines with arcs for machines that read no splines.
+
+Splines are what importers agree on: without weights, clamped, of degree 3, one entity from corner
+to corner, a smooth closed curve in its exact clamped form with the closed flag. Lines are lines.
+"""
+
+from __future__ import annotations
+
+import io
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.arcs import arc_polyline
+from shapespline.drawing import Piece
+from shapespline.errors import InvalidInputError
+from shapespline.formats.entities import entities
+from shapespline.joining import joined
+
+if TYPE_CHECKING:
+    from ezdxf.layouts import Modelspace
+
+    from shapespline.curve import BSplineCurve
+    from shapespline.drawing import Drawing, Fit
+
+# $INSUNITS; a drawing in another unit, or in pixels, is written without one.
+UNITS = {"in": 1, "ft": 2, "mi": 3, "mm": 4, "cm": 5, "m": 6, "km": 7, "mil": 9, "yd": 10,
+         "um": 13, "dm": 14}  # fmt: skip
+DEGREE = 3
+# Flags of a SPLINE.
+CLOSED, PLANAR = 1, 8
+# Distance between a curve and its arcs, of the tolerance that the curve was fitted to, if no other
+# is asked for; but not less than this part of the size.
+ARC_PART, ARC_LEAST = 0.25, 1e-6
+
+
+def encode(
+    drawing: Drawing,
+    *,
+    degree: int = DEGREE,
+    arcs: bool = False,
+    arc_tolerance: float | None = None,
+) -> bytes:
+    """Text of a DXF file, release 2000.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        Its unit goes to $INSUNITS.
+    degree : int
+        Curves of lower degree are raised to it, exactly; those of a higher one stay as they are.
+    arcs : bool
+        Write each outline as one LWPOLYLINE of lines and arcs (bulges) instead. Of the ways to
+        write arcs it is the one that keeps a contour together, so that a machine cuts it in one
+        go; separate ARC and LINE entities have to be chained again.
+    arc_tolerance : float, optional
+        Largest distance between a curve and its arcs, data units. A quarter of the tolerance of
+        the fit if not given, so that data and arcs are within 1.25 tolerances of each other.
+
+    Returns
+    -------
+    bytes
+        ASCII; the same for the same drawing.
+
+    Raises
+    ------
+    InvalidInputError
+        If an option is out of range.
+
+    Notes
+    -----
+    Exact but for rounding; with ``arcs`` within ``arc_tolerance``, both ways.
+    """
+    if degree not in (2, 3, 4, 5, 6, 7, 8, 9):
+        raise InvalidInputError(f"degree must be a whole number from 2 to 9, got {degree!r}")
+    if arc_tolerance is not None and not arcs:
+        raise InvalidInputError("arc_tolerance acts with arcs only: ask for arcs, or leave it out")
+    import ezdxf
+
+    document = ezdxf.new("R2000", units=UNITS.get(drawing.unit or "", 0))
+    space = document.modelspace()
+    for fit in drawing:
+        if arcs:
+            _add_arcs(space, fit, arc_tolerance)
+        else:
+            _add_splines(space, fit, degree)
+    extents = np.concatenate([fit.contour.points for fit in drawing])
+    document.header["$EXTMIN"] = (*extents.min(axis=0).tolist(), 0.0)
+    document.header["$EXTMAX"] = (*extents.max(axis=0).tolist(), 0.0)
+    text = io.StringIO()
+    # No times and random names: the same drawing gives the same bytes.
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        document.write(text)
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before
+    return text.getvalue().encode(document.output_encoding, errors="dxfreplace")
+
+
+def _add_splines(space: Modelspace, fit: Fit, degree: int) -> None:
+    """Lines and splines of one outline, end to end."""
+    for entity in entities(fit):
+        if entity.curve.degree == 1:
+            for begin, end in pairwise(entity.curve.control_points):
+                space.add_line(begin, end)
+        else:
+            _add_spline(space, entity.curve, degree, closed=entity.closed)
+
+
+def _add_spline(space: Modelspace, curve: BSplineCurve, degree: int, *, closed: bool) -> None:
+    if curve.degree < degree:
+        piece = Piece("spline", curve.degree, curve.knots, curve.control_points)
+        curve = joined([piece], degree)
+    entity = space.add_open_spline(curve.control_points, curve.degree, curve.knots.tolist())
+    entity.dxf.flags = PLANAR | (CLOSED if closed else 0)
+
+
+def _add_arcs(space: Modelspace, fit: Fit, arc_tolerance: float | None) -> None:
+    if arc_tolerance is None:
+        arc_tolerance = max(ARC_PART * fit.tolerance, ARC_LEAST * fit.contour.box_diagonal)
+    found = arc_polyline(fit.spline, arc_tolerance, closed=fit.closed)
+    vertices = np.column_stack([found.points, found.bulges])
+    space.add_lwpolyline(vertices.tolist(), format="xyb", close=found.closed)

@@ -1,0 +1,168 @@
+"""SVG drawings as exact curves: every path and shape, transforms and units, by svgelements.
+
+What is drawn is read: the centre lines of strokes and the borders of fills. Hidden elements,
+elements painted with nothing, definitions that nobody uses and text, pictures and effects are not.
+:mod:`shapespline.formats.svg_tree` prepares the document.
+"""
+
+from __future__ import annotations
+
+import io
+import warnings
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree
+
+import numpy as np
+
+from shapespline.errors import FormatError, SkippedContentWarning
+from shapespline.exact import Outlines
+from shapespline.formats.elliptic import elliptical_arc
+from shapespline.formats.outlines import bezier, closed_up
+from shapespline.formats.svg_tree import prepared
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from svgelements import Arc, PathSegment, Shape
+
+    from shapespline.drawing import Piece
+    from shapespline.typing import FloatArray
+
+UNPAINTED = ("none", "transparent")
+
+
+def read(path: Path) -> Outlines:
+    """Read the outlines of an SVG drawing.
+
+    Lines and Beziers are exact; arcs of ellipses become cubics within a billionth of their size. y
+    is turned over within the view box, which is the frame. Where width or height have a unit of
+    length (mm, cm, in, pt, pc, Q), coordinates are in that unit, otherwise they are those of the
+    view box, "px".
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    Outlines
+        A sub-path each, in the order of drawing.
+
+    Raises
+    ------
+    FormatError
+        If the file is no SVG, is cut off, declares entities, is built to exhaust memory, or draws
+        nothing.
+
+    Warns
+    -----
+    SkippedContentWarning
+        If there is text, a picture, a clip path or a mask: those are left out.
+    """
+    page = prepared(path.read_bytes())
+    if page.skipped:
+        warnings.warn(
+            f"{path.name}: {' and '.join(page.skipped)} cannot be read as outlines and were left"
+            " out; convert text to paths in the drawing program",
+            SkippedContentWarning,
+            stacklevel=2,
+        )
+    curves = [pieces for pieces in _sub_paths(page.root) if pieces]
+    if not curves:
+        raise FormatError("the drawing holds no visible path or shape")
+    height = page.turning_height
+    if height is None:
+        y = np.concatenate([piece.control_points[:, 1] for pieces in curves for piece in pieces])
+        height = float(y.min() + y.max())
+    turned = np.array([1.0, -1.0]) * page.scale, np.array([0.0, height]) * page.scale
+    return Outlines(
+        [
+            [
+                piece._replace(control_points=piece.control_points * turned[0] + turned[1])
+                for piece in pieces
+            ]
+            for pieces in curves
+        ],
+        page.frame,
+        page.unit,
+    )
+
+
+def _sub_paths(root: ElementTree.Element) -> Iterator[list[Piece]]:
+    """Pieces of every sub-path that is drawn, in the coordinates of the view box, y down."""
+    from svgelements import SVG, Shape
+
+    text = io.BytesIO(ElementTree.tostring(root))
+    try:
+        elements = SVG.parse(text, reify=False, on_error="raise").elements()
+        for element in elements:
+            if isinstance(element, Shape) and _is_visible(element):
+                yield from _pieces_of(element)
+    except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError) as error:
+        # What the library stumbles over is an error of the document.
+        raise FormatError(f"a path or shape cannot be understood: {error}") from error
+    except RecursionError:
+        raise FormatError("the drawing is nested too deeply") from None
+
+
+def _is_visible(shape: Shape) -> bool:
+    values = shape.values
+    painted = any(
+        str(values.get(name, default)).strip().lower() not in UNPAINTED
+        for name, default in (("fill", "black"), ("stroke", "none"))
+    )
+    shown = values.get("visibility", "visible") not in ("hidden", "collapse")
+    return painted and shown and str(values.get("opacity", "1")).strip() not in ("0", "0%")
+
+
+def _pieces_of(shape: Shape) -> Iterator[list[Piece]]:
+    """Pieces of each sub-path of an element."""
+    from svgelements import Close, Move
+
+    m = shape.transform
+    axes, origin = np.array([[m.a, m.b], [m.c, m.d]]), np.array([m.e, m.f])
+    pieces: list[Piece] = []
+    for segment in shape.segments(transformed=False):
+        if isinstance(segment, Move):
+            yield closed_up(pieces)
+            pieces = []
+            continue
+        pieces += [
+            piece._replace(control_points=piece.control_points @ axes + origin)
+            for piece in _pieces_of_segment(segment)
+        ]
+        if isinstance(segment, Close):
+            yield closed_up(pieces)
+            pieces = []
+    yield closed_up(pieces)
+
+
+def _pieces_of_segment(segment: PathSegment) -> list[Piece]:
+    from svgelements import Arc, CubicBezier, QuadraticBezier
+
+    if segment.start is None or segment.end is None:
+        return []
+    if isinstance(segment, Arc):
+        return _arc(segment)
+    inner = []
+    if isinstance(segment, CubicBezier):
+        inner = [segment.control1, segment.control2]
+    elif isinstance(segment, QuadraticBezier):
+        inner = [segment.control]
+    return [bezier([_xy(point) for point in (segment.start, *inner, segment.end)])]
+
+
+def _arc(arc: Arc) -> list[Piece]:
+    start, end = _xy(arc.start), _xy(arc.end)
+    if not (arc.rx and arc.ry):  # by the standard a line
+        return [bezier([start, end])]
+    centre = _xy(arc.center)
+    first, second = _xy(arc.prx) - centre, _xy(arc.pry) - centre
+    pieces = elliptical_arc(centre, first, second, arc.get_start_t(), arc.sweep)
+    pieces[0].control_points[0], pieces[-1].control_points[-1] = start, end
+    return pieces
+
+
+def _xy(point: object) -> FloatArray:
+    return np.array([point.x, point.y], dtype=np.float64)  # type: ignore[attr-defined]
