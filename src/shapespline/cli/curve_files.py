@@ -19,11 +19,12 @@ class TraceFile:
     """Write the outlines of one file as they were found, as polylines."""
 
     reading: options.Reading
+    writing: options.Writing
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
         shape = self.reading.outlines(source)
-        ss.write(target, shape)
+        ss.write(target, shape, **self.writing.given())
         n_points = sum(len(contour) for contour in shape)
         outlines = "1 outline" if len(shape) == 1 else f"{len(shape)} outlines"
         return Report(
@@ -44,6 +45,7 @@ class ConvertFile:
     """Write the curves of one file in another format."""
 
     reading: options.Reading
+    writing: options.Writing
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
@@ -52,7 +54,7 @@ class ConvertFile:
             raise ss.InvalidInputError(
                 f"{source} holds points, not curves: fit it, or write its outlines with trace"
             )
-        ss.write(target, drawing)
+        ss.write(target, drawing, **self.writing.given())
         points = sum(fit.n_stored_points for fit in drawing)
         curves = "1 curve" if len(drawing) == 1 else f"{len(drawing)} curves"
         return Report(
@@ -62,7 +64,7 @@ class ConvertFile:
         )
 
 
-@options.with_reading
+@options.gathers(reading=options.Reading, writing=options.Writing)
 def trace(
     sources: options.Inputs,
     output: options.Output,
@@ -74,15 +76,16 @@ def trace(
     stdin_format: options.StdinFormat = "png",
     *,
     reading: options.Reading,
+    writing: options.Writing,
 ) -> None:
     """Write the outlines of pictures, or of other files, as polylines: nothing is fitted."""
     run_files(
-        TraceFile(reading),
+        TraceFile(reading, writing),
         Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume),
     )
 
 
-@options.with_reading
+@options.gathers(reading=options.Reading, writing=options.Writing)
 def convert(
     sources: options.Inputs,
     output: options.Output,
@@ -94,9 +97,10 @@ def convert(
     stdin_format: options.StdinFormat = "json",
     *,
     reading: options.Reading,
+    writing: options.Writing,
 ) -> None:
     """Write the curves of drawings in another format: the same curves, nothing is fitted."""
     run_files(
-        ConvertFile(reading),
+        ConvertFile(reading, writing),
         Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume),
     )

@@ -24,6 +24,7 @@ class FitFile:
     """Read, fit, write and draw one file; sent to other processes as it is."""
 
     reading: options.Reading
+    writing: options.Writing
     fitting: dict[str, Any]
     plot: Path | None
     many: bool
@@ -34,7 +35,7 @@ class FitFile:
         began = time.perf_counter()
         drawing = ss.fit_shape(shape, **self.fitting)
         seconds = time.perf_counter() - began
-        ss.write(target, drawing)
+        ss.write(target, drawing, **self.writing.given())
         picture = self.picture(source)
         if picture is not None:
             from shapespline.plot import plot_fit
@@ -71,7 +72,7 @@ class FitFile:
                 never_the_input(source, picture)
 
 
-@options.with_reading
+@options.gathers(reading=options.Reading, writing=options.Writing)
 def fit(
     sources: options.Inputs,
     output: options.Output,
@@ -121,6 +122,7 @@ def fit(
     stdin_format: options.StdinFormat = "csv",
     *,
     reading: options.Reading,
+    writing: options.Writing,
 ) -> None:
     """Fit B-spline curves to the outlines of every INPUT and write them to files."""
     batch = Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume)
@@ -134,6 +136,6 @@ def fit(
     }
 
     def check(found: Sequence[Path]) -> None:
-        FitFile(reading, fitting, plot, many=len(found) > 1).check(found)
+        FitFile(reading, writing, fitting, plot, many=len(found) > 1).check(found)
 
-    run_files(FitFile(reading, fitting, plot, many=len(sources) > 1), batch, check)
+    run_files(FitFile(reading, writing, fitting, plot, many=len(sources) > 1), batch, check)
