@@ -11,6 +11,7 @@ from shapespline.cli.reports import Report, drawing_record
 from shapespline.cli.run_files import Batch, run_files
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
 
@@ -44,6 +45,7 @@ class ConvertFile:
     """Write the curves of one file in another format."""
 
     reading: options.Reading
+    writing: Mapping[str, object]
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
@@ -52,7 +54,7 @@ class ConvertFile:
             raise ss.InvalidInputError(
                 f"{source} holds points, not curves: fit it, or write its outlines with trace"
             )
-        ss.write(target, drawing)
+        ss.write(target, drawing, **self.writing)  # type: ignore[arg-type]
         points = sum(fit.n_stored_points for fit in drawing)
         curves = "1 curve" if len(drawing) == 1 else f"{len(drawing)} curves"
         return Report(
@@ -87,6 +89,8 @@ def convert(
     sources: options.Inputs,
     output: options.Output,
     ending: options.Format = None,
+    arcs: options.Arcs = False,
+    arc_tolerance: options.ArcTolerance = None,
     jobs: options.Jobs = 1,
     scheduler: options.Scheduler = None,
     resume: options.Resume = False,
@@ -96,7 +100,8 @@ def convert(
     reading: options.Reading,
 ) -> None:
     """Write the curves of drawings in another format: the same curves, nothing is fitted."""
+    writing = {"arcs": arcs or None, "arc_tolerance": arc_tolerance}
     run_files(
-        ConvertFile(reading),
-        Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume),
+        ConvertFile(reading, writing),
+        Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing),
     )

@@ -16,7 +16,7 @@ from shapespline.cli.reports import Report, drawing_record, drawing_remarks, dra
 from shapespline.cli.run_files import Batch, run_files
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
 
 @dataclass(frozen=True)
@@ -27,14 +27,15 @@ class FitFile:
     fitting: dict[str, Any]
     plot: Path | None
     many: bool
+    writing: Mapping[str, object]
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
-        shape = self.reading.outlines(source)
+        shape = self.reading.outlines(source, self.fitting["tolerance"])
         began = time.perf_counter()
         drawing = ss.fit_shape(shape, **self.fitting)
         seconds = time.perf_counter() - began
-        ss.write(target, drawing)
+        ss.write(target, drawing, **self.writing)  # type: ignore[arg-type]
         picture = self.picture(source)
         if picture is not None:
             from shapespline.plot import plot_fit
@@ -114,6 +115,8 @@ def fit(
             " many inputs."
         ),
     ] = None,
+    arcs: options.Arcs = False,
+    arc_tolerance: options.ArcTolerance = None,
     jobs: options.Jobs = 1,
     scheduler: options.Scheduler = None,
     resume: options.Resume = False,
@@ -123,7 +126,8 @@ def fit(
     reading: options.Reading,
 ) -> None:
     """Fit B-spline curves to the outlines of every INPUT and write them to files."""
-    batch = Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume)
+    writing = {"arcs": arcs or None, "arc_tolerance": arc_tolerance}
+    batch = Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing)
     fitting = {
         "tolerance": tolerance,
         "n_control_points": control_points,
@@ -134,6 +138,6 @@ def fit(
     }
 
     def check(found: Sequence[Path]) -> None:
-        FitFile(reading, fitting, plot, many=len(found) > 1).check(found)
+        FitFile(reading, fitting, plot, len(found) > 1, writing).check(found)
 
-    run_files(FitFile(reading, fitting, plot, many=len(sources) > 1), batch, check)
+    run_files(FitFile(reading, fitting, plot, len(sources) > 1, writing), batch, check)

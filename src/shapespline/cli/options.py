@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from enum import StrEnum
 from pathlib import Path  # noqa: TC003 - typer reads annotations
@@ -17,6 +18,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from shapespline import Drawing, Shape
+
+
+# What the samples on an exact curve may be off, of the tolerance of the fit to them.
+SAMPLING_PART = 0.02
 
 
 class Selection(StrEnum):
@@ -73,8 +78,22 @@ class Reading:
     min_area: Annotated[
         float | None, typer.Option(help="Smallest outline of a picture, square pixels.")
     ] = None
+    unit: Annotated[
+        str | None,
+        typer.Option(
+            help="Unit to work in, such as mm or in: numbers are converted if the file says its"
+            " unit, else they are in this one."
+        ),
+    ] = None
+    scale: Annotated[
+        float | None,
+        typer.Option(help="Factor for all numbers; of a picture, the units that a pixel measures."),
+    ] = None
+    dpi: Annotated[
+        float | None, typer.Option(help="Pixels per inch, of pictures (unit: mm if none is named).")
+    ] = None
 
-    def read(self, path: Path) -> Shape | Drawing:
+    def read(self, path: Path, sampling: float | None = None) -> Shape | Drawing:
         """What the file holds."""
         options: dict[str, object] = {}
         for field in fields(self):
@@ -82,11 +101,17 @@ class Reading:
             if isinstance(value, StrEnum):  # the first of each is the reader's own choice
                 value = None if value is next(iter(type(value))) else value.value
             options[field.name] = value
-        return ss.read(path, **options)  # type: ignore[arg-type]
+        return ss.read(path, sampling=sampling, **options)  # type: ignore[arg-type]
 
-    def outlines(self, path: Path) -> Shape:
-        """The outlines in the file; of a drawing those that it was fitted to."""
-        shape = self.read(path)
+    def outlines(self, path: Path, tolerance: str | None = None) -> Shape:
+        """The outlines in the file; of a drawing those that it was fitted to.
+
+        Exact curves are sampled to a small part of the tolerance that they are to be fitted to.
+        """
+        sampling = None
+        with suppress(TypeError, ValueError):  # none given, or a part of the size
+            sampling = SAMPLING_PART * float(tolerance)  # type: ignore[arg-type]
+        shape = self.read(path, sampling if sampling and sampling > 0 else None)
         if isinstance(shape, ss.Shape):
             return shape
         contours = [fit.contour for fit in shape]
@@ -132,7 +157,7 @@ Inputs = Annotated[
     typer.Argument(
         metavar="INPUT...",
         help="Files, folders or patterns: outlines (CSV, TXT, NPY), pictures (PNG, JPEG, TIFF,"
-        " BMP), drawings (JSON); - for standard input.",
+        " BMP), drawings (SVG, DXF, JSON and more); - for standard input.",
         show_default=False,
     ),
 ]
@@ -169,3 +194,11 @@ AsJson = Annotated[
     bool, typer.Option("--json", help="Print one line of JSON for each input, for scripts.")
 ]
 Degree = Annotated[int, typer.Option(help="Degree of the curve, 1 to 9.")]
+Arcs = Annotated[
+    bool,
+    typer.Option("--arcs", help="Write DXF as lines and arcs, for machines that read no splines."),
+]
+ArcTolerance = Annotated[
+    float | None,
+    typer.Option(help="Largest distance of the arcs to the curve (default: 1/4 of the tolerance)."),
+]
