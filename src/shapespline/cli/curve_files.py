@@ -81,7 +81,9 @@ def trace(
     """Write the outlines of pictures, or of other files, as polylines: nothing is fitted."""
     run_files(
         TraceFile(reading, writing),
-        Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume),
+        Batch(
+            sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
+        ),
     )
 
 
@@ -102,5 +104,7 @@ def convert(
     """Write the curves of drawings in another format: the same curves, nothing is fitted."""
     run_files(
         ConvertFile(reading, writing),
-        Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume),
+        Batch(
+            sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
+        ),
     )

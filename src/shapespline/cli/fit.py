@@ -31,7 +31,7 @@ class FitFile:
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
-        shape = self.reading.outlines(source)
+        shape = self.reading.outlines(source, self.fitting["tolerance"])
         began = time.perf_counter()
         drawing = ss.fit_shape(shape, **self.fitting)
         seconds = time.perf_counter() - began
@@ -125,7 +125,9 @@ def fit(
     writing: options.Writing,
 ) -> None:
     """Fit B-spline curves to the outlines of every INPUT and write them to files."""
-    batch = Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume)
+    batch = Batch(
+        sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
+    )
     fitting = {
         "tolerance": tolerance,
         "n_control_points": control_points,

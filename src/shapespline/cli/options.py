@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from enum import StrEnum
 from pathlib import Path  # noqa: TC003 - typer reads annotations
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
     from shapespline import Drawing, Shape
 
     Command = Callable[..., Any]
+
+
+# What the samples on an exact curve may be off, of the tolerance of the fit to them.
+SAMPLING_PART = 0.02
 
 
 class Selection(StrEnum):
@@ -85,23 +90,34 @@ class Reading:
     min_area: Annotated[
         float | None, typer.Option(help="Smallest outline of a picture, square pixels.")
     ] = None
-
     unit: Annotated[
-        str | None, typer.Option(help="Unit of length to work in: mm, cm, m, in, px and others.")
+        str | None,
+        typer.Option(
+            help="Unit to work in, such as mm or in: numbers are converted if the file says its"
+            " unit, else they are in this one."
+        ),
     ] = None
     scale: Annotated[
         float | None,
-        typer.Option(help="Factor to the coordinates of the file, or size of a pixel."),
+        typer.Option(help="Factor for all numbers; of a picture, the units that a pixel measures."),
     ] = None
-    dpi: Annotated[float | None, typer.Option(help="Pixels of the picture in an inch.")] = None
+    dpi: Annotated[
+        float | None, typer.Option(help="Pixels per inch, of pictures (unit: mm if none is named).")
+    ] = None
 
-    def read(self, path: Path) -> Shape | Drawing:
+    def read(self, path: Path, sampling: float | None = None) -> Shape | Drawing:
         """What the file holds."""
-        return ss.read(path, **_given(self))
+        return ss.read(path, sampling=sampling, **_given(self))
 
-    def outlines(self, path: Path) -> Shape:
-        """The outlines in the file; of a drawing those that it was fitted to."""
-        shape = self.read(path)
+    def outlines(self, path: Path, tolerance: str | None = None) -> Shape:
+        """The outlines in the file; of a drawing those that it was fitted to.
+
+        Exact curves are sampled to a small part of the tolerance that they are to be fitted to.
+        """
+        sampling = None
+        with suppress(TypeError, ValueError):  # none given, or a part of the size
+            sampling = SAMPLING_PART * float(tolerance)  # type: ignore[arg-type]
+        shape = self.read(path, sampling if sampling and sampling > 0 else None)
         if isinstance(shape, ss.Shape):
             return shape
         contours = [fit.contour for fit in shape]
@@ -113,10 +129,14 @@ class Writing:
     """How to write an output; every field is an option of the command line."""
 
     arcs: Annotated[
-        bool, typer.Option("--arcs", help="DXF of arcs and lines, for controllers without splines.")
+        bool,
+        typer.Option("--arcs", help="DXF as lines and arcs, for machines that read no splines."),
     ] = False
     arc_tolerance: Annotated[
-        float | None, typer.Option(help="Largest distance between arcs and curve, data unit.")
+        float | None,
+        typer.Option(
+            help="Largest distance of the arcs to the curve (default: 1/4 of the tolerance)."
+        ),
     ] = None
     chord: Annotated[
         float | None,
@@ -187,7 +207,7 @@ Inputs = Annotated[
     typer.Argument(
         metavar="INPUT...",
         help="Files, folders or patterns: outlines (CSV, TXT, NPY), pictures (PNG, JPEG, TIFF,"
-        " BMP), drawings (JSON); - for standard input.",
+        " BMP), drawings (SVG, DXF, JSON and more); - for standard input.",
         show_default=False,
     ),
 ]

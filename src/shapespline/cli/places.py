@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import shapespline as ss
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
 # Stands for standard input, or standard output.
 STREAM = "-"
@@ -47,7 +47,9 @@ def inputs(given: Sequence[str]) -> list[Path]:
     return list(found)
 
 
-def outputs(sources: Sequence[Path], output: str, ending: str | None) -> list[Path]:
+def outputs(
+    sources: Sequence[Path], output: str, ending: str | None, writing: Mapping[str, object]
+) -> list[Path]:
     """For each input the file to write: the one named, or one of its name in the folder named.
 
     Inputs that differ in their ending alone keep it: ``logo.png.svg``. Nothing is written yet,
@@ -82,7 +84,7 @@ def outputs(sources: Sequence[Path], output: str, ending: str | None) -> list[Pa
     for source, path in zip(sources, targets, strict=True):
         never_the_input(source, path)
         # A folder yet to be made is checked by making it, when everything else is known to be well.
-        check_output(Path(path.name) if in_folder and not target.exists() else path)
+        check_output(Path(path.name) if in_folder and not target.exists() else path, **writing)
     if in_folder and not target.exists():
         target.mkdir()
     return targets

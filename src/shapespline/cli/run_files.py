@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import typer
@@ -13,7 +13,7 @@ from shapespline.cli import places
 from shapespline.cli.jobs import run_all
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     from shapespline.cli.reports import Report
@@ -31,6 +31,7 @@ class Batch:
     n_jobs: int = 1
     scheduler: str | None = None
     resume: bool = False
+    writing: Mapping[str, object] = field(default_factory=dict)
 
 
 def run_files(
@@ -55,7 +56,9 @@ def run_files(
                 f"standard output takes one drawing, got {len(sources)} inputs; name a folder"
             )
         check(sources)
-        pairs = list(zip(sources, places.outputs(sources, output, batch.ending), strict=True))
+        pairs = list(
+            zip(sources, places.outputs(sources, output, batch.ending, batch.writing), strict=True)
+        )
         if batch.resume:
             pairs = [pair for pair in pairs if not places.is_done(*pair)]
         n_failed = 0

@@ -155,7 +155,7 @@ def read(
         raise type(error)(f"{path.name}: {error}") from error
 
 
-def check_output(path: str | os.PathLike[str]) -> None:
+def check_output(path: str | os.PathLike[str], **options: object) -> None:
     """Raise unless :func:`write` could write there: before the work whose result is to be written.
 
     Raises
@@ -164,9 +164,11 @@ def check_output(path: str | os.PathLike[str]) -> None:
         If no writer is registered for the ending.
     FormatError
         If the folder does not exist or the file cannot be written.
+    InvalidInputError
+        If the format does not take an option.
     """
     check_target(path)
-    _function(Path(path), "encode")
+    _checked(Path(path), _function(Path(path), "encode"), options)
 
 
 def write(

@@ -105,11 +105,13 @@ def _document(path: Path) -> Document:
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
         return ezdxf.readfile(path)
-    except (ezdxf.DXFError, OSError, UnicodeError) as error:
-        raise FormatError(f"no DXF drawing, or damaged: {error}") from error
-    except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError) as error:
-        # Whatever a damaged file makes the library stumble over.
-        raise FormatError(f"the DXF drawing is damaged: {error!r}") from error
+    except MemoryError:
+        raise
+    except Exception as error:  # whatever a damaged file makes the library stumble over
+        sentence = " ".join(f"{error!s}".replace(str(path), path.name).split())
+        raise FormatError(
+            f"no DXF drawing, or damaged: {sentence or type(error).__name__}"
+        ) from error
 
 
 def _visible(document: Document) -> Iterator[Entity]:
@@ -128,9 +130,12 @@ def _visible(document: Document) -> Iterator[Entity]:
                     f"its blocks hold more than {MOST_ENTITIES} entities or lie in one another"
                     f" more than {DEEPEST} deep; explode and thin them in the drawing program"
                 )
-            if entity.dxf.get("invisible", 0) or entity.dxf.layer.lower() in hidden:
+            kind = entity.dxftype()
+            if kind not in PIECES and kind != "INSERT":
+                yield entity  # to be named; it may lack the attributes asked for below
+            elif entity.dxf.get("invisible", 0) or entity.dxf.layer.lower() in hidden:
                 continue
-            if entity.dxftype() != "INSERT":
+            elif kind != "INSERT":
                 yield entity
             elif entity.mcount > 1:
                 yield from exploded(entity.multi_insert(), depth + 1)

@@ -7,6 +7,7 @@ to corner, a smooth closed curve in its exact clamped form with the closed flag.
 from __future__ import annotations
 
 import io
+from contextlib import contextmanager
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,8 @@ from shapespline.formats.entities import entities
 from shapespline.joining import joined
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from ezdxf.layouts import Modelspace
 
     from shapespline.curve import BSplineCurve
@@ -78,25 +81,33 @@ def encode(
         raise InvalidInputError("arc_tolerance acts with arcs only: ask for arcs, or leave it out")
     import ezdxf
 
-    document = ezdxf.new("R2000", units=UNITS.get(drawing.unit or "", 0))
-    space = document.modelspace()
-    for fit in drawing:
-        if arcs:
-            _add_arcs(space, fit, arc_tolerance)
-        else:
-            _add_splines(space, fit, degree)
-    extents = np.concatenate([fit.contour.points for fit in drawing])
-    document.header["$EXTMIN"] = (*extents.min(axis=0).tolist(), 0.0)
-    document.header["$EXTMAX"] = (*extents.max(axis=0).tolist(), 0.0)
     text = io.StringIO()
-    # No times and random names: the same drawing gives the same bytes.
+    with _without_time_and_chance():
+        document = ezdxf.new("R2000", units=UNITS.get(drawing.unit or "", 0))
+        space = document.modelspace()
+        for fit in drawing:
+            if arcs:
+                _add_arcs(space, fit, arc_tolerance)
+            else:
+                _add_splines(space, fit, degree)
+        points = np.concatenate([fit.contour.points for fit in drawing])
+        document.header["$EXTMIN"] = (*points.min(axis=0).tolist(), 0.0)
+        document.header["$EXTMAX"] = (*points.max(axis=0).tolist(), 0.0)
+        document.write(text)
+    return text.getvalue().encode(document.output_encoding, errors="dxfreplace")
+
+
+@contextmanager
+def _without_time_and_chance() -> Iterator[None]:
+    """The same drawing gives the same bytes: the library has an option for it, a global one."""
+    import ezdxf
+
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True
     try:
-        document.write(text)
+        yield
     finally:
         ezdxf.options.write_fixed_meta_data_for_testing = before
-    return text.getvalue().encode(document.output_encoding, errors="dxfreplace")
 
 
 def _add_splines(space: Modelspace, fit: Fit, degree: int) -> None:

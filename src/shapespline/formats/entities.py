@@ -48,7 +48,8 @@ def entities(fit: Fit) -> list[Entity]:
     pieces = [part for piece in fit.pieces for part in _smooth_parts(piece)]
     breaks = [_breaks(a, b) for a, b in zip(pieces, [*pieces[1:], pieces[0]], strict=True)]
     if fit.closed:
-        first = breaks.index(True) + 1 if any(breaks) else 0
+        # Where it began before, if that is a cut.
+        first = 0 if breaks[-1] or not any(breaks) else breaks.index(True) + 1
         pieces, breaks = pieces[first:] + pieces[:first], breaks[first:] + breaks[:first]
         smooth_seam = not any(breaks)
     else:

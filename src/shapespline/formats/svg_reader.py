@@ -63,8 +63,8 @@ def read(path: Path) -> Outlines:
     page = prepared(path.read_bytes())
     if page.skipped:
         warnings.warn(
-            f"{path.name}: {' and '.join(page.skipped)} cannot be read as outlines and were left"
-            " out; convert text to paths in the drawing program",
+            f"{path.name}: left out {', '.join(page.skipped)}, which are no outlines; convert text"
+            " to paths, and apply clips, in the drawing program",
             SkippedContentWarning,
             stacklevel=2,
         )
