@@ -13,7 +13,7 @@ from tests.shapes import random_curve
 from shapespline.contour import Frame
 from shapespline.drawing import Piece
 from shapespline.errors import DegenerateContourError, InvalidInputError
-from shapespline.exact import COARSEST, SAMPLING, Outlines, exact_drawing, exact_fit
+from shapespline.exact import COARSEST, LONGEST_STEP, SAMPLING, Outlines, exact_drawing, exact_fit
 from shapespline.nesting import containing
 
 
@@ -88,10 +88,10 @@ def test_pieces_without_extent_are_left_out():
         exact_fit([bezier((1, 0), (1, 0))])
 
 
-def test_a_line_to_and_fro_stays_open():
+def test_a_line_to_and_fro_is_closed_and_no_step_is_long():
     fit = exact_fit([bezier((0, 0), (1, 0)), bezier((1, 0), (0, 0))])
-    assert not fit.contour.closed
-    assert fit.contour.semi_closed
+    assert fit.contour.closed
+    assert np.hypot(*np.diff(fit.contour.polyline, axis=0).T).max() <= LONGEST_STEP * (1 + 1e-12)
 
 
 @pytest.mark.parametrize("sampling", [0.0, -1.0, np.inf, np.nan, "fine", True])
