@@ -25,8 +25,8 @@ TIERS = [
     },
     {
         "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
-        "ordering", "centerline", "formats", "plot", "comparison", "polygons", "joining", "exact",
-        "scaling", "arcs",
+        "ordering", "chain_links", "centerline", "formats", "plot", "comparison", "polygons",
+        "joining", "exact", "scaling", "arcs",
     },
     {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
     {"fitting"},
@@ -176,7 +176,7 @@ def test_formats_and_plot_never_fit(name):
     allowed = {
         "contour", "drawing", "curve", "knots", "errors", "typing", "arrays", "_version",
         "formats", "trace", "channels", "polygons", "nesting", "joining", "exact",
-        "units", "scaling", "arcs", "centerline",
+        "units", "scaling", "arcs", "centerline", "ordering",
     }  # fmt: skip
     for other, _, _ in own_imports(MODULES[name]):
         assert first(other) in allowed, f"{name} imports {other}"

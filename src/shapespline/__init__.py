@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         MissingExtraError,
         OrderError,
         ShapesplineError,
+        ShuffledPointsWarning,
         SkippedContentWarning,
         UnknownFormatError,
     )
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from shapespline.formats import read, write
     from shapespline.initial import InitialCurve, initial_curve
     from shapespline.optimization import optimize
+    from shapespline.ordering import Ordering, order_points
     from shapespline.reading import LITERAL, SENSIBLE, Reading
     from shapespline.reconstruction import fit_shape
 
@@ -51,11 +53,13 @@ _HOME = {
     "LITERAL": "reading",
     "MissingExtraError": "errors",
     "OrderError": "errors",
+    "Ordering": "ordering",
     "Piece": "drawing",
     "Reading": "reading",
     "SENSIBLE": "reading",
     "Shape": "contour",
     "ShapesplineError": "errors",
+    "ShuffledPointsWarning": "errors",
     "SkippedContentWarning": "errors",
     "Status": "drawing",
     "UnknownFormatError": "errors",
@@ -65,6 +69,7 @@ _HOME = {
     "fit_shape": "reconstruction",
     "initial_curve": "initial",
     "optimize": "optimization",
+    "order_points": "ordering",
     "read": "formats",
     "write": "formats",
 }
@@ -86,10 +91,12 @@ __all__ = [
     "InvalidInputError",
     "MissingExtraError",
     "OrderError",
+    "Ordering",
     "Piece",
     "Reading",
     "Shape",
     "ShapesplineError",
+    "ShuffledPointsWarning",
     "SkippedContentWarning",
     "Status",
     "UnknownFormatError",
@@ -100,6 +107,7 @@ __all__ = [
     "fit_shape",
     "initial_curve",
     "optimize",
+    "order_points",
     "read",
     "write",
 ]

@@ -40,3 +40,7 @@ class DroppedPointsWarning(UserWarning):
 
 class SkippedContentWarning(UserWarning):
     """Parts of a file that are no outlines were left out."""
+
+
+class ShuffledPointsWarning(UserWarning):
+    """Points are hardly in the order of an outline."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from contextlib import suppress
 from typing import TYPE_CHECKING, Literal, get_args
 
@@ -11,10 +12,15 @@ from shapespline.arrays import float_array, is_number
 from shapespline.balance import STRAY_WEIGHT, balanced_start
 from shapespline.contour import Contour
 from shapespline.drawing import Fit, Status
-from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.errors import (
+    DegenerateContourError,
+    InvalidInputError,
+    ShuffledPointsWarning,
+)
 from shapespline.estimation import FINAL_LIMITS, chosen_count
 from shapespline.knots import check_count, check_degree
 from shapespline.optimization import checked_weights, optimize
+from shapespline.ordering import looks_shuffled
 from shapespline.removal import fit_spline
 from shapespline.sections import fit_pieces
 
@@ -100,6 +106,13 @@ def fit_curve(
     """
     degree = check_degree(degree)
     contour = _contour(points, closed)
+    if looks_shuffled(contour):
+        warnings.warn(
+            "the points look shuffled: most steps lead across the whole outline, not to a point"
+            " near by; sort them with order_points, or read them with unordered=True",
+            ShuffledPointsWarning,
+            stacklevel=2,
+        )
     if len(contour) < degree + 1 and tolerance is None:
         raise DegenerateContourError(
             f"points must hold at least degree + 1 = {degree + 1} distinct points for degree"

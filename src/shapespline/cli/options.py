@@ -64,6 +64,10 @@ class Reading:
     y_down: Annotated[
         bool, typer.Option("--y-down", help="The y axis of the outline file runs down (CSV, NPY).")
     ] = False
+    unordered: Annotated[
+        bool,
+        typer.Option("--unordered", help="The points of the file are in no order: find it."),
+    ] = False
     level: Annotated[
         float | None,
         typer.Option(help="Grey level between shape and ground of a picture (default: Otsu)."),

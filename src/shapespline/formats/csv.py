@@ -10,6 +10,7 @@ from shapespline.contour import Contour, Shape
 from shapespline.errors import FormatError
 from shapespline.exact import sampled
 from shapespline.nesting import parents_of
+from shapespline.ordering import order_points
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -69,7 +70,9 @@ def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:
     return "\n".join(blocks).encode("ascii")
 
 
-def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Shape:
+def read(
+    path: Path, *, closed: bool | None = None, y_down: bool = False, unordered: bool = False
+) -> Shape:
     """Read outlines from delimited text.
 
     Columns are separated by semicolons, commas, or blanks and tabs (a run of them counts once);
@@ -88,6 +91,9 @@ def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Sha
         repeated first point at the end being the plainest case.
     y_down : bool
         Turn y over within the bounding box: y -> y_min + y_max - y.
+    unordered : bool
+        Find the outlines that the points were taken from, whatever their order in the file; see
+        `order_points`.
 
     Returns
     -------
@@ -99,11 +105,13 @@ def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Sha
     FormatError
         Naming the line, if it does not hold exactly two finite numbers.
     InvalidInputError
-        If the points make no contour.
+        If the points make no contour, or no order can be found.
     """
     points, breaks = parse(path.read_bytes())
     if y_down:
         points = turned_over(points)
+    if unordered:
+        return order_points(points, closed=closed).shape
     outlines = np.split(points, breaks)
     airfoil = around_airfoil(points)
     if airfoil is not None:

@@ -9,12 +9,15 @@ import numpy as np
 from shapespline.contour import Contour, Shape
 from shapespline.errors import FormatError
 from shapespline.formats.csv import turned_over
+from shapespline.ordering import order_points
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 
-def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Shape:
+def read(
+    path: Path, *, closed: bool | None = None, y_down: bool = False, unordered: bool = False
+) -> Shape:
     """Read one outline from a ``.npy`` file.
 
     Parameters
@@ -25,6 +28,9 @@ def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Sha
         Whether the outline is closed; found from the gap between its ends if not given.
     y_down : bool
         Turn y over within the bounding box: y -> y_min + y_max - y.
+    unordered : bool
+        Find the outlines that the points were taken from, whatever their order in the file; see
+        `order_points`.
 
     Returns
     -------
@@ -52,5 +58,8 @@ def read(path: Path, *, closed: bool | None = None, y_down: bool = False) -> Sha
         hint = "; transpose it?" if array.ndim == 2 and array.shape[0] == 2 else ""
         raise FormatError(f"expected an array of shape (n, 2), got {array.shape}{hint}")
     points = array.astype(np.float64)
+    if unordered:
+        points = turned_over(points) if y_down else points
+        return order_points(points, closed=closed).shape
     contour = Contour(points, closed)
     return Shape([Contour(turned_over(points), closed) if y_down else contour])
