@@ -200,5 +200,8 @@ Arcs = Annotated[
 ]
 ArcTolerance = Annotated[
     float | None,
-    typer.Option(help="Largest distance of the arcs to the curve (default: 1/4 of the tolerance)."),
+    typer.Option(
+        help="Largest distance of the arcs to the curve, on top of the tolerance of the fit"
+        " (default: a quarter of it)."
+    ),
 ]
