@@ -25,7 +25,7 @@ TIERS = [
     },
     {
         "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
-        "ordering", "formats", "plot", "comparison", "polygons", "joining", "exact",
+        "ordering", "centerline", "formats", "plot", "comparison", "polygons", "joining", "exact",
         "scaling", "arcs",
     },
     {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
@@ -176,11 +176,11 @@ def test_formats_and_plot_never_fit(name):
     allowed = {
         "contour", "drawing", "curve", "knots", "errors", "typing", "arrays", "_version",
         "formats", "trace", "channels", "polygons", "nesting", "joining", "exact",
-        "units", "scaling", "arcs",
+        "units", "scaling", "arcs", "centerline",
     }  # fmt: skip
     for other, _, _ in own_imports(MODULES[name]):
         assert first(other) in allowed, f"{name} imports {other}"
-        assert first(other) != "trace" or name == "formats.image"
+        assert first(other) not in ("trace", "centerline") or name == "formats.image"
 
 
 @by_module

@@ -347,3 +347,49 @@ def test_nested_orients_and_sorts():
     assert [abs(signed_area(c.points)) for c in shape] == [25, 1, 1, 0.25]
     assert shape.parents == (-1, 0, -1, 1)
     assert [signed_area(c.points) for c in shape] == [25, -1, 1, 0.25]
+
+
+def blots():
+    """Red on the left, green in the middle, on white."""
+    image = np.full((40, 90, 3), 255, dtype=np.uint8)
+    image[10:30, 10:30] = (220, 20, 20)
+    image[10:30, 40:70] = (20, 160, 20)
+    return image
+
+
+@pytest.mark.parametrize(
+    ("color", "box"),
+    [
+        ("#dc1414", (10, 10, 30, 30)),
+        ("rgb(20,160,20)", (40, 10, 70, 30)),
+        ("@50,20", (40, 10, 70, 30)),
+        ("@15,15", (10, 10, 30, 30)),
+    ],
+)
+def test_the_shape_of_a_colour(color, box):
+    (contour,) = trace_image(blots(), color=color)
+    # The level between two colours lies somewhere in the one pixel between their centres.
+    assert np.abs(contour.points.min(axis=0) - box[:2]).max() <= 0.5
+    assert np.abs(contour.points.max(axis=0) - box[2:]).max() <= 0.5
+
+
+@pytest.mark.parametrize("color", ["reddish", "@1", "@90,0", "@-1,0", 7])
+def test_colours_that_are_none(color):
+    with pytest.raises(InvalidInputError, match="color"):
+        trace_image(blots(), color=color)
+
+
+def test_one_way_to_see_ink():
+    with pytest.raises(InvalidInputError, match="color excludes channel and polarity"):
+        trace_image(blots(), color="red", channel="green")
+
+
+def test_accuracy_tells_one_bit_from_anti_aliased():
+    y, x = np.mgrid[0:80, 0:80] + 0.5
+    distance = np.hypot(x - 40, y - 40) - 25
+    soft = np.clip(127.5 + 255 * distance, 0, 255).astype(np.uint8)
+    for image, accuracy in ((soft, 0.07), (255 * (soft > 127), 0.25)):
+        (contour,) = trace_image(image)
+        assert contour.accuracy == accuracy
+        error = np.abs(np.hypot(*(contour.points - 40).T) - 25)
+        assert np.sqrt((error**2).mean()) <= accuracy

@@ -73,6 +73,65 @@ def validated_pixels(image: ArrayLike) -> NDArray[Any]:
     return pixels[:, :, 0] if channels == 1 and pixels.ndim == 3 else pixels
 
 
+def colour_distance(pixels: NDArray[Any], color: str) -> FloatArray:
+    """Root mean square difference of each pixel from a colour, in the unit of the image.
+
+    Parameters
+    ----------
+    pixels : ndarray, shape (h, w) or (h, w, 2 to 4)
+        As :func:`validated_pixels` returns them; transparent ones are laid on white or black.
+    color : str
+        A name or code as in CSS ("red", "#f80", "rgb(255, 128, 0)"), or "@column,row": the colour
+        of that pixel, counted from the upper left corner.
+
+    Raises
+    ------
+    InvalidInputError
+        If the colour cannot be understood, or its pixel lies outside.
+
+    Examples
+    --------
+    >>> image = np.zeros((1, 2, 3), dtype=np.uint8)
+    >>> image[0, 1] = (255, 0, 0)
+    >>> colour_distance(image, "red").round().tolist(), colour_distance(image, "@0,0").tolist()
+    ([[147.0, 0.0]], [[0.0, 147.22431864335456]])
+    """
+    if pixels.ndim == 3 and pixels.shape[2] in (2, 4):
+        pixels = _on_ground(pixels)
+    if pixels.ndim == 2:
+        pixels = np.repeat(pixels[:, :, None], 3, axis=2)
+    wanted = _colour(color, pixels)
+    squares = ((pixels - wanted).astype(np.float64) ** 2).sum(axis=2)
+    return cast("FloatArray", np.sqrt(squares / 3))
+
+
+def _colour(color: str, pixels: NDArray[Any]) -> FloatArray:
+    """Three values in the unit of the image."""
+    expected = (
+        f"color must be a CSS colour such as '#ff8800' or 'red', or '@column,row', got {color!r}"
+    )
+    if not isinstance(color, str):
+        raise InvalidInputError(expected)
+    if color.startswith("@"):
+        try:
+            column, row = (int(part) for part in color[1:].split(","))
+        except ValueError:
+            raise InvalidInputError(expected) from None
+        height, width = pixels.shape[:2]
+        if not (0 <= column < width and 0 <= row < height):
+            raise InvalidInputError(
+                f"color names the pixel {column},{row}, but the picture has {width} x {height}"
+            )
+        return pixels[row, column].astype(np.float64)
+    from PIL import ImageColor
+
+    try:
+        rgb = ImageColor.getrgb(color)[:3]
+    except ValueError:
+        raise InvalidInputError(expected) from None
+    return np.array(rgb) / 255 * _full_scale(pixels)
+
+
 def pixel_values(pixels: NDArray[Any], channel: Channel, *, lightness: bool) -> PixelValues:
     """Reduce validated pixels to the channel asked for, or find one.
 

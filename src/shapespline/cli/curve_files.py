@@ -11,7 +11,6 @@ from shapespline.cli.reports import Report, drawing_record
 from shapespline.cli.run_files import Batch, run_files
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from pathlib import Path
 
 
@@ -20,11 +19,12 @@ class TraceFile:
     """Write the outlines of one file as they were found, as polylines."""
 
     reading: options.Reading
+    writing: options.Writing
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
         shape = self.reading.outlines(source)
-        ss.write(target, shape)
+        ss.write(target, shape, **self.writing.given())
         n_points = sum(len(contour) for contour in shape)
         outlines = "1 outline" if len(shape) == 1 else f"{len(shape)} outlines"
         return Report(
@@ -45,7 +45,7 @@ class ConvertFile:
     """Write the curves of one file in another format."""
 
     reading: options.Reading
-    writing: Mapping[str, object]
+    writing: options.Writing
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
@@ -54,7 +54,7 @@ class ConvertFile:
             raise ss.InvalidInputError(
                 f"{source} holds points, not curves: fit it, or write its outlines with trace"
             )
-        ss.write(target, drawing, **self.writing)  # type: ignore[arg-type]
+        ss.write(target, drawing, **self.writing.given())
         points = sum(fit.n_stored_points for fit in drawing)
         curves = "1 curve" if len(drawing) == 1 else f"{len(drawing)} curves"
         return Report(
@@ -64,7 +64,7 @@ class ConvertFile:
         )
 
 
-@options.with_reading
+@options.gathers(reading=options.Reading, writing=options.Writing)
 def trace(
     sources: options.Inputs,
     output: options.Output,
@@ -76,21 +76,22 @@ def trace(
     stdin_format: options.StdinFormat = "png",
     *,
     reading: options.Reading,
+    writing: options.Writing,
 ) -> None:
     """Write the outlines of pictures, or of other files, as polylines: nothing is fitted."""
     run_files(
-        TraceFile(reading),
-        Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume),
+        TraceFile(reading, writing),
+        Batch(
+            sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
+        ),
     )
 
 
-@options.with_reading
+@options.gathers(reading=options.Reading, writing=options.Writing)
 def convert(
     sources: options.Inputs,
     output: options.Output,
     ending: options.Format = None,
-    arcs: options.Arcs = False,
-    arc_tolerance: options.ArcTolerance = None,
     jobs: options.Jobs = 1,
     scheduler: options.Scheduler = None,
     resume: options.Resume = False,
@@ -98,10 +99,12 @@ def convert(
     stdin_format: options.StdinFormat = "json",
     *,
     reading: options.Reading,
+    writing: options.Writing,
 ) -> None:
     """Write the curves of drawings in another format: the same curves, nothing is fitted."""
-    writing = {"arcs": arcs or None, "arc_tolerance": arc_tolerance}
     run_files(
         ConvertFile(reading, writing),
-        Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing),
+        Batch(
+            sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
+        ),
     )

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from shapespline import Drawing, Shape
 
 
-@options.with_reading
+@options.gathers(reading=options.Reading)
 def compare(
     first: options.Input,
     second: options.Input,
@@ -42,7 +42,7 @@ def compare(
     )
 
 
-@options.with_reading
+@options.gathers(reading=options.Reading)
 def info(
     sources: options.Inputs,
     as_json: options.AsJson = False,

@@ -16,7 +16,7 @@ from shapespline.cli.reports import Report, drawing_record, drawing_remarks, dra
 from shapespline.cli.run_files import Batch, run_files
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
 
 @dataclass(frozen=True)
@@ -24,10 +24,10 @@ class FitFile:
     """Read, fit, write and draw one file; sent to other processes as it is."""
 
     reading: options.Reading
+    writing: options.Writing
     fitting: dict[str, Any]
     plot: Path | None
     many: bool
-    writing: Mapping[str, object]
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
@@ -35,7 +35,7 @@ class FitFile:
         began = time.perf_counter()
         drawing = ss.fit_shape(shape, **self.fitting)
         seconds = time.perf_counter() - began
-        ss.write(target, drawing, **self.writing)  # type: ignore[arg-type]
+        ss.write(target, drawing, **self.writing.given())
         picture = self.picture(source)
         if picture is not None:
             from shapespline.plot import plot_fit
@@ -72,7 +72,7 @@ class FitFile:
                 never_the_input(source, picture)
 
 
-@options.with_reading
+@options.gathers(reading=options.Reading, writing=options.Writing)
 def fit(
     sources: options.Inputs,
     output: options.Output,
@@ -115,8 +115,6 @@ def fit(
             " many inputs."
         ),
     ] = None,
-    arcs: options.Arcs = False,
-    arc_tolerance: options.ArcTolerance = None,
     jobs: options.Jobs = 1,
     scheduler: options.Scheduler = None,
     resume: options.Resume = False,
@@ -124,10 +122,12 @@ def fit(
     stdin_format: options.StdinFormat = "csv",
     *,
     reading: options.Reading,
+    writing: options.Writing,
 ) -> None:
     """Fit B-spline curves to the outlines of every INPUT and write them to files."""
-    writing = {"arcs": arcs or None, "arc_tolerance": arc_tolerance}
-    batch = Batch(sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing)
+    batch = Batch(
+        sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
+    )
     fitting = {
         "tolerance": tolerance,
         "n_control_points": control_points,
@@ -138,6 +138,6 @@ def fit(
     }
 
     def check(found: Sequence[Path]) -> None:
-        FitFile(reading, fitting, plot, len(found) > 1, writing).check(found)
+        FitFile(reading, writing, fitting, plot, many=len(found) > 1).check(found)
 
-    run_files(FitFile(reading, fitting, plot, len(sources) > 1, writing), batch, check)
+    run_files(FitFile(reading, writing, fitting, plot, many=len(sources) > 1), batch, check)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     from shapespline import Drawing, Shape
 
+    Command = Callable[..., Any]
+
 
 # What the samples on an exact curve may be off, of the tolerance of the fit to them.
 SAMPLING_PART = 0.02
@@ -72,6 +74,16 @@ class Reading:
     channel: Annotated[Channel, typer.Option(help="What is cut at the level in a picture.")] = (
         Channel.auto
     )
+    color: Annotated[
+        str | None,
+        typer.Option(
+            help="The shape of a picture is what has this colour: #ff8800, red, or @column,row of a"
+            " pixel."
+        ),
+    ] = None
+    centerline: Annotated[
+        bool, typer.Option("--centerline", help="Centre lines of strokes, not their outlines.")
+    ] = False
     contours: Annotated[
         Selection, typer.Option(help="Outlines of a picture: all, or the longest.")
     ] = Selection.all
@@ -95,13 +107,7 @@ class Reading:
 
     def read(self, path: Path, sampling: float | None = None) -> Shape | Drawing:
         """What the file holds."""
-        options: dict[str, object] = {}
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, StrEnum):  # the first of each is the reader's own choice
-                value = None if value is next(iter(type(value))) else value.value
-            options[field.name] = value
-        return ss.read(path, sampling=sampling, **options)  # type: ignore[arg-type]
+        return ss.read(path, sampling=sampling, **_given(self))
 
     def outlines(self, path: Path, tolerance: str | None = None) -> Shape:
         """The outlines in the file; of a drawing those that it was fitted to.
@@ -118,38 +124,83 @@ class Reading:
         return ss.Shape(contours, shape.parents, shape.frame, shape.unit)
 
 
-def with_reading(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the options of `Reading`, gathered in its argument ``reading``.
+@dataclass(frozen=True)
+class Writing:
+    """How to write an output; every field is an option of the command line."""
 
-    Typer builds options from a signature; this one is the command's with ``reading`` replaced by
-    the fields.
+    arcs: Annotated[
+        bool,
+        typer.Option("--arcs", help="DXF as lines and arcs, for machines that read no splines."),
+    ] = False
+    arc_tolerance: Annotated[
+        float | None,
+        typer.Option(
+            help="Largest distance of the arcs to the curve, on top of the tolerance of the fit"
+            " (default: a quarter of it)."
+        ),
+    ] = None
+    chord: Annotated[
+        float | None,
+        typer.Option(help="Largest distance between curve and polyline (CSV, GeoJSON), data unit."),
+    ] = None
+
+    def given(self) -> dict[str, Any]:
+        """Those that were given, as options of `shapespline.write`."""
+        return _given(self)
+
+
+def _given(options: Reading | Writing) -> dict[str, Any]:
+    values = {field.name: getattr(options, field.name) for field in fields(options)}
+    return {
+        field.name: values[field.name]
+        for field in fields(options)
+        if values[field.name] != field.default
+    }
+
+
+def gathers(**groups: type[Reading | Writing]) -> Callable[[Command], Command]:
+    """Give a command the options of groups, each gathered in the argument that it is named for.
+
+    Typer builds options from a signature; the command's gets the fields of the groups in place of
+    the arguments that take them.
     """
-    own = inspect.signature(command, eval_str=True)
-    hints = get_type_hints(Reading, include_extras=True)
-    options = [
+
+    def decorate(command: Command) -> Command:
+        own = inspect.signature(command, eval_str=True)
+        options = {name: _parameters(group) for name, group in groups.items()}
+
+        @functools.wraps(command)
+        def gathered(**given: Any) -> Any:
+            for name, group in groups.items():
+                taken = {option.name: given.pop(option.name) for option in options[name]}
+                given[name] = group(**taken)
+            return command(**given)
+
+        parameters = [
+            parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
+            for parameter in own.parameters.values()
+            if parameter.name not in groups
+        ]
+        parameters += [option for found in options.values() for option in found]
+        # Typer reads both.
+        gathered.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        gathered.__annotations__ = {item.name: item.annotation for item in parameters}
+        return gathered
+
+    return decorate
+
+
+def _parameters(group: type[Reading | Writing]) -> list[inspect.Parameter]:
+    hints = get_type_hints(group, include_extras=True)
+    return [
         inspect.Parameter(
             field.name,
             inspect.Parameter.KEYWORD_ONLY,
             default=field.default,
             annotation=hints[field.name],
         )
-        for field in fields(Reading)
+        for field in fields(group)
     ]
-
-    @functools.wraps(command)
-    def gathered(**given: Any) -> Any:
-        reading = Reading(**{option.name: given.pop(option.name) for option in options})
-        return command(**given, reading=reading)
-
-    parameters = [
-        parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-        for parameter in own.parameters.values()
-        if parameter.name != "reading"
-    ]
-    # Typer reads both.
-    gathered.__signature__ = inspect.Signature([*parameters, *options])  # type: ignore[attr-defined]
-    gathered.__annotations__ = {item.name: item.annotation for item in [*parameters, *options]}
-    return gathered
 
 
 Inputs = Annotated[
@@ -194,14 +245,3 @@ AsJson = Annotated[
     bool, typer.Option("--json", help="Print one line of JSON for each input, for scripts.")
 ]
 Degree = Annotated[int, typer.Option(help="Degree of the curve, 1 to 9.")]
-Arcs = Annotated[
-    bool,
-    typer.Option("--arcs", help="Write DXF as lines and arcs, for machines that read no splines."),
-]
-ArcTolerance = Annotated[
-    float | None,
-    typer.Option(
-        help="Largest distance of the arcs to the curve, on top of the tolerance of the fit"
-        " (default: a quarter of it)."
-    ),
-]

@@ -10,7 +10,7 @@ import typer
 from shapespline.cli import options
 
 
-@options.with_reading
+@options.gathers(reading=options.Reading)
 def paper(
     source: options.Input,
     output: Annotated[

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
+from shapespline.centerline import centerlines
 from shapespline.errors import FormatError
 from shapespline.trace import trace_image
 
@@ -32,17 +33,22 @@ def read(
     level: float | None = None,
     polarity: Polarity = "auto",
     channel: Channel = "auto",
+    color: str | None = None,
     contours: Selection = "all",
     min_area: float | None = None,
+    centerline: bool = False,
 ) -> Shape:
     """Trace the outlines in a PNG, JPEG, TIFF or BMP picture.
 
     Parameters
     ----------
     path : Path
-    level, polarity, channel, contours, min_area
+    level, polarity, channel, color, contours, min_area
         As in :func:`shapespline.trace.trace_image`. The unit of ``level`` is that of the
         picture: 0 to 255, or to 65535 for 16-bit grey.
+    centerline : bool
+        Return the centre lines of strokes instead of the outlines of the ink; see
+        :func:`shapespline.centerline.centerlines`.
 
     Returns
     -------
@@ -56,14 +62,16 @@ def read(
     DegenerateContourError
         If there is no outline in it.
     """
-    return trace_image(
+    shape = trace_image(
         load(path),
         level=level,
         polarity=polarity,
         channel=channel,
+        color=color,
         contours=contours,
         min_area=min_area,
     )
+    return centerlines(shape) if centerline else shape
 
 
 def load(path: Path) -> NDArray[Any]:

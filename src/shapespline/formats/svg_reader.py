@@ -165,4 +165,7 @@ def _arc(arc: Arc) -> list[Piece]:
 
 
 def _xy(point: object) -> FloatArray:
-    return np.array([point.x, point.y], dtype=np.float64)  # type: ignore[attr-defined]
+    place = np.array([point.x, point.y], dtype=np.float64)  # type: ignore[attr-defined]
+    if not np.isfinite(place).all():
+        raise FormatError("a coordinate of a path or shape is no finite number")
+    return place

@@ -1,0 +1,282 @@
+"""Pictures of glyphs and icons traced and fitted, against the outlines that they were drawn from.
+
+    python -m benchmarks.traced                     anti-aliased, 256 pixels
+    python -m benchmarks.traced --one-bit           the same cut to black and white first
+    python -m benchmarks.traced --tolerance 0.3     in pixels; none means no parameter at all
+    python -m benchmarks.traced --every 4           each fourth picture
+
+Distances in pixels, over samples a twentieth of a pixel apart, both ways. Left out is what a
+picture cannot show: a corner within ``CORNER`` pixels, and tips and slits narrower than ``FINE``
+pixels. potrace, where it is installed, gets the same picture at its usual threshold.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import json
+import shutil
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from PIL import Image, ImageOps
+from scipy.spatial import cKDTree
+
+import shapespline as ss
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from benchmarks.outside_metric import Array
+
+ROOT = Path(__file__).parent.parent
+LARGE = ROOT.parent / "shared" / "data"
+OWN = ROOT / "examples" / "data" / "images"
+PIXELS, FRAME = 256, 512
+STEP = 0.05
+# Pixels around a corner of the true outline that do not count, and the turn that makes a corner.
+CORNER, TURN = 1.0, np.radians(20.0)
+# Pixels between two sides of ink or ground that are too near to be told apart.
+FINE = 1.0
+TOLERANCE = 0.35
+
+
+class Truth(NamedTuple):
+    """Samples of the visible outline, pixels, y up; what is too fine to show; points stored."""
+
+    samples: Array
+    too_fine: cKDTree
+    n_points: int
+
+
+class Result(NamedTuple):
+    """Points stored, and distances to the truth away from corners, both ways."""
+
+    n_points: int
+    rms: float
+    worst: float
+    seconds: float
+
+
+def bezier(points: Array, step: float) -> Array:
+    """Samples of a Bezier from its start on, its end left out."""
+    length = np.hypot(*np.diff(points, axis=0).T).sum()
+    t = np.linspace(0, 1, max(2, int(np.ceil(length / step))), endpoint=False)[:, None]
+    work = [np.broadcast_to(p, (len(t), 2)) for p in points]
+    while len(work) > 1:
+        work = [(1 - t) * a + t * b for a, b in zip(work, work[1:])]  # noqa: B905, RUF007
+    return work[0]
+
+
+def truth(path: Path) -> Truth:
+    """The outline of a .truth.json, scaled to the picture."""
+    held = json.loads(path.read_text())
+    scale = PIXELS / FRAME
+    loops, corners, n_points = [], [], 0
+    for contour in held["contours"]:
+        segments = [
+            np.array([(scale * x, PIXELS - scale * y) for x, y in segment]) for segment in contour
+        ]
+        segments = [s for s in segments if np.hypot(*np.diff(s, axis=0).T).sum() > 1e-9]
+        n_points += sum(len(segment) - 1 for segment in segments)
+        loops.append(np.concatenate([bezier(segment, STEP) for segment in segments]))
+        for before, after in zip(segments, segments[1:] + segments[:1], strict=True):
+            u, v = _tangent(before[::-1]) * -1, _tangent(after)
+            if abs(np.arctan2(u[0] * v[1] - u[1] * v[0], u @ v)) > TURN:
+                corners.append(after[0])
+    samples, normals = np.concatenate(loops), np.concatenate([_normals(loop) for loop in loops])
+    if len(loops) > 1:  # glyphs are drawn of parts that overlap: ink is on one side only
+        aside = 0.05 * normals
+        seen = _ink(samples + aside, loops) != _ink(samples - aside, loops)
+        samples, normals = samples[seen], normals[seen]
+    fine = _facing(samples, normals)
+    return Truth(samples, cKDTree(np.array([*corners, *fine, (1e9, 1e9)])), n_points)
+
+
+def _normals(loop: Array) -> Array:
+    along = np.roll(loop, -1, axis=0) - np.roll(loop, 1, axis=0)
+    normal = np.column_stack([-along[:, 1], along[:, 0]])
+    return normal / np.maximum(np.hypot(*normal.T), 1e-12)[:, None]
+
+
+def _facing(samples: Array, normals: Array) -> Array:
+    """Samples that have the other side of a tip or a slit within FINE pixels."""
+    points, across = samples[::4], normals[::4]
+    pairs = cKDTree(points).query_pairs(FINE, output_type="ndarray")
+    opposite = (across[pairs[:, 0]] * across[pairs[:, 1]]).sum(axis=1) < -0.5
+    return points[np.unique(pairs[opposite])]
+
+
+def _tangent(points: Array) -> Array:
+    ahead = points[1:] - points[0]
+    return ahead[np.hypot(*ahead.T) > 1e-9][0]
+
+
+def _ink(points: Array, loops: Sequence[Array]) -> Array:
+    """Whether points are inside by the nonzero rule."""
+    winding = np.zeros(len(points), dtype=int)
+    for loop in loops:
+        coarse = loop[::10]
+        a, b = coarse, np.roll(coarse, -1, axis=0)
+        for chunk in np.array_split(np.arange(len(points)), max(1, len(points) * len(a) // 10**7)):
+            x, y = points[chunk, 0, None], points[chunk, 1, None]
+            up, down = (a[:, 1] <= y) & (b[:, 1] > y), (a[:, 1] > y) & (b[:, 1] <= y)
+            side = (b[:, 0] - a[:, 0]) * (y - a[:, 1]) - (x - a[:, 0]) * (b[:, 1] - a[:, 1])
+            winding[chunk] += (up & (side > 0)).sum(axis=1) - (down & (side < 0)).sum(axis=1)
+    return winding != 0
+
+
+def distances(curve: Array, outline: Truth) -> tuple[float, float]:
+    """Root mean square and largest distance, both ways, away from corners."""
+    there = np.concatenate(
+        [
+            _away(outline.samples, outline, cKDTree(curve)),
+            _away(curve, outline, cKDTree(outline.samples)),
+        ]
+    )
+    return float(np.sqrt((there**2).mean())), float(there.max())
+
+
+def _away(points: Array, outline: Truth, other: cKDTree) -> Array:
+    return other.query(points[outline.too_fine.query(points)[0] > CORNER])[0]
+
+
+def ours(
+    picture: Image.Image, outline: Truth, tolerance: float | None
+) -> tuple[Result, ss.Drawing]:
+    """Trace and fit."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "picture.png"
+        picture.save(path)
+        began = time.perf_counter()
+        drawing = ss.fit_shape(ss.read(path), tolerance=tolerance)
+        seconds = time.perf_counter() - began
+    samples = np.concatenate(
+        [bezier(piece, STEP) for fit in drawing for piece in fit.spline.beziers().points]
+    )
+    n_points = sum(fit.n_stored_points for fit in drawing)
+    return Result(n_points, *distances(samples, outline), seconds), drawing
+
+
+def black_on_white(picture: Image.Image) -> Image.Image:
+    """Grey, on white ground, the shape dark."""
+    ground = Image.new("L", picture.size, 255)
+    flat = picture.convert("RGBA")
+    ground.paste(flat.convert("L"), mask=flat.getchannel("A"))
+    return ImageOps.invert(ground) if ground.getpixel((0, 0)) < 128 else ground
+
+
+def potrace(picture: Image.Image, outline: Truth) -> Result | None:
+    """The same picture through potrace with its own options; None where it is not installed."""
+    program = shutil.which("potrace")
+    if program is None:
+        return None
+    import svgelements
+
+    bitmap = io.BytesIO()
+    black_on_white(picture).save(bitmap, format="PPM")
+    began = time.perf_counter()
+    done = subprocess.run(
+        [program, "-b", "svg", "--flat", "-r", "72", "-o", "-", "-"],
+        input=bitmap.getvalue(),
+        capture_output=True,
+        check=True,
+    )
+    seconds = time.perf_counter() - began
+    samples, n_points = [], 0
+    drawing = svgelements.SVG.parse(io.StringIO(done.stdout.decode()), reify=True, ppi=72)
+    scale = PIXELS / float(drawing.width)
+    for path in drawing.elements(lambda element: isinstance(element, svgelements.Path)):
+        for segment in path:
+            if isinstance(segment, svgelements.Line | svgelements.Close):
+                control = [segment.start, segment.end]
+            elif isinstance(segment, svgelements.CubicBezier):
+                control = [segment.start, segment.control1, segment.control2, segment.end]
+            else:
+                continue
+            points = np.array([(scale * p.x, PIXELS - scale * p.y) for p in control])
+            if np.ptp(points, axis=0).any():
+                n_points += len(points) - 1
+                samples.append(bezier(points, STEP))
+    return Result(n_points, *distances(np.concatenate(samples), outline), seconds)
+
+
+def pictures() -> list[tuple[Path, Path]]:
+    """Pairs of truth and picture."""
+    folders = [LARGE / "glyphs", LARGE / "icons"] if LARGE.exists() else [OWN]
+    pairs = []
+    for folder in folders:
+        for path in sorted(folder.glob("*.truth.json")):
+            picture = path.with_name(path.name.replace(".truth.json", f"_{PIXELS}.png"))
+            if picture.exists():
+                pairs.append((path, picture))
+    return pairs
+
+
+def table(tolerance: float | None, every: int = 1, *, one_bit: bool = False) -> None:
+    """One line a picture, geometric means, and what misses."""
+    pairs = pictures()[::every]
+    print(f"## {len(pairs)} pictures, tolerance {tolerance} px, one bit: {one_bit}\n")
+    print("| picture | truth | ours: points | rms | worst | s | potrace: points | rms | worst |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    ratios, misses = [], []
+    for path, picture in pairs:
+        image = Image.open(picture)
+        if one_bit:
+            image = black_on_white(image).point(lambda value: 255 * (value >= 128)).convert("1")
+        outline = truth(path)
+        found, _ = ours(image, outline, tolerance)
+        other = potrace(image, outline)
+        name = picture.stem
+        theirs = (
+            "| | |" if other is None else f"{other.n_points} | {other.rms:.3f} | {other.worst:.2f}"
+        )
+        print(
+            f"| {name} | {outline.n_points} | {found.n_points} | {found.rms:.3f}"
+            f" | {found.worst:.2f} | {found.seconds:.2f} | {theirs} |",
+            flush=True,
+        )
+        if other is not None:
+            ratios.append([a / b for a, b in zip(found[:3], other[:3], strict=True)])
+        reasons = [
+            reason
+            for reason, missed in (
+                ("rms", found.rms > 0.25),
+                ("worst", found.worst > 0.75),
+                ("points", found.n_points > 1.2 * outline.n_points),
+            )
+            if missed
+        ]
+        if reasons:
+            misses.append(f"{name}: {', '.join(reasons)}")
+    if ratios:
+        mean = np.exp(np.log(ratios).mean(axis=0))
+        print(
+            f"\nGeometric mean against potrace: points {mean[0]:.2f}, rms {mean[1]:.2f},"
+            f" worst {mean[2]:.2f}"
+        )
+    print(
+        f"\nTo reach: rms 0.25, worst 0.75, points 1.2 times the truth's;"
+        f" {len(pairs) - len(misses)} of {len(pairs)} do."
+    )
+    for miss in misses:
+        print(f"  misses {miss}")
+
+
+def main() -> None:
+    """Read the arguments and print."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--tolerance", default=str(TOLERANCE), help="pixels, or none")
+    parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--one-bit", action="store_true")
+    chosen = parser.parse_args()
+    tolerance = None if chosen.tolerance == "none" else float(chosen.tolerance)
+    table(tolerance, chosen.every, one_bit=chosen.one_bit)
+
+
+if __name__ == "__main__":
+    main()
