@@ -72,6 +72,55 @@ def test_a_drawing_can_be_fitted_again(shapespline, tmp_path):
     np.testing.assert_array_equal(fit.contour.points, np.loadtxt(HAND, delimiter=","))
 
 
+LOGO = """<svg xmlns="http://www.w3.org/2000/svg" width="80mm" height="60mm" viewBox="0 0 40 30">
+<text x="1" y="2">A</text><circle cx="10" cy="10" r="8"/><circle cx="10" cy="10" r="2"/></svg>"""
+
+
+@pytest.mark.filterwarnings("ignore:logo.svg")
+def test_a_drawing_in_svg_becomes_a_dxf_in_its_unit(shapespline, tmp_path):
+    source, output = tmp_path / "logo.svg", tmp_path / "logo.dxf"
+    source.write_text(LOGO)
+    code, out, err = shapespline("fit", source, "-o", output, "--tolerance", 0.1)
+    assert code == 0
+    assert "2 curves" in out
+    assert one_line(err)
+    assert "left out: text" in err
+    drawing = ss.read(output)
+    assert (drawing.unit, drawing.parents) == ("mm", (-1, 0))
+    # Samples are off by 2 % of the tolerance at most, and there are 20 000 of those that compare.
+    found = ss.compare(drawing, ss.read(source))
+    assert 0.01 < found.hausdorff_distance <= 0.1 * 1.02 + found.spacing**2
+    assert shapespline("fit", source, "-o", output, "-t", 0.005, "--unit", "in")[0] == 0
+    assert ss.read(output).unit == "in"
+    assert shapespline("convert", source, "-o", output)[0] == 0
+    assert ss.compare(ss.read(output), ss.read(source)).hausdorff_distance < 1e-8
+
+
+def test_arcs_for_machines(shapespline, tmp_path):
+    source, output = tmp_path / "logo.svg", tmp_path / "logo.dxf"
+    source.write_text(LOGO)
+    assert shapespline("fit", source, "-o", output, "-t", 0.1, "--arcs")[0] == 0
+    assert b"LWPOLYLINE" in output.read_bytes()
+    assert b"SPLINE\n" not in output.read_bytes().replace(b"LWPOLYLINE\n", b"")
+    code, out, err = shapespline("fit", source, "-o", tmp_path / "x.svg", "-t", 0.1, "--arcs")
+    assert (code, out) == (1, "")
+    assert one_line(err)
+    assert "arcs is not an option for x.svg" in err
+
+
+def test_the_size_of_a_pixel(shapespline, tmp_path):
+    picture = DATA / "images" / "mdi_leaf-maple_256.png"
+    output = tmp_path / "leaf.dxf"
+    assert shapespline("fit", picture, "-o", output, "-t", 0.1, "--dpi", 127)[0] == 0
+    (fit,) = ss.read(output)
+    (traced,) = ss.read(picture)
+    assert fit.contour.box_diagonal == pytest.approx(0.2 * traced.box_diagonal, rel=0.01)
+    code, _, err = shapespline("fit", picture, "-o", output, "-t", 0.1, "--unit", "mm")
+    assert code == 1
+    assert one_line(err)
+    assert "needs the size of a pixel" in err
+
+
 def test_open_and_y_down(shapespline, tmp_path):
     outline, output = tmp_path / "arc.csv", tmp_path / "arc.json"
     t = np.linspace(0, np.pi, 60)

@@ -161,3 +161,13 @@ def test_sorting_moves_least(values):
     within = nondecreasing(values, 1.0)
     assert (np.diff(within) >= 0).all()
     assert within[-1] <= within[0] + 1
+
+
+def test_points_of_an_uneven_curve_lie_on_it():
+    """Where the speed changes a thousandfold within a piece Newton's method needs its time.
+
+    With 8 steps a point was missed by 2e-3 of a curve 25 long.
+    """
+    curve = random_curve(np.random.default_rng(0), 5, 8, multiple=False)
+    points = curve(np.linspace(0, 1, 200))
+    assert np.sqrt(nearest(curve, points).distances_sq).max() < 1e-12

@@ -28,6 +28,7 @@ def assert_same(a, b):
     """Compare two drawings, down to the last bit of every field."""
     assert (a.parents, len(a)) == (b.parents, len(b))
     assert (a.frame is None) == (b.frame is None)
+    assert a.unit == b.unit
     assert a.frame is None or same_bits(a.frame, b.frame)
     for one, other in zip(a, b, strict=True):
         assert_same_fit(one, other)
@@ -44,6 +45,7 @@ def assert_same_fit(one, other):
             assert x.closed == y.closed
             assert same_bits(x.points, y.points)
             assert same_bits(x.source, y.source)
+            assert x.accuracy == y.accuracy
         elif field.name == "history":
             assert len(x) == len(y)
             assert all(same_bits(p, q) for p, q in zip(x, y, strict=True))
@@ -285,3 +287,17 @@ def test_a_file_cut_off_anywhere(read_text, document):
 def test_other_files(read_text, text):
     with pytest.raises(FormatError):
         read_text(text)
+
+
+def test_the_unit_and_the_accuracy_of_the_data_come_along(round_trip, read_text):
+    fit = fit_of(wave())
+    contour = Contour(fit.contour.points, fit.contour.closed, accuracy=0.125)
+    drawing = Drawing([dataclasses.replace(fit, contour=contour)], unit="in")
+    again = round_trip(drawing)
+    assert_same(drawing, again)
+    assert (again.unit, again.fits[0].contour.accuracy) == ("in", 0.125)
+    text = subject.encode(drawing).decode()
+    with pytest.raises(FormatError, match="unit must be null or one of px, um, mm"):
+        read_text(text.replace('"in"', '"furlong"'))
+    with pytest.raises(FormatError, match="accuracy must be a length"):
+        read_text(text.replace("0.125", "-1.0"))

@@ -35,7 +35,7 @@ class CurveSearch {
     }
 
   private:
-    static constexpr int kMaxDepth = 8, kMinDepth = 2, kNewtonSteps = 8;
+    static constexpr int kMaxDepth = 8, kMinDepth = 2, kNewtonSteps = 32;
 
     // Pieces whose control polygon is at most 2 % longer than its chord: on them the squared
     // distance to a point has one minimum, unless the point is near the centre of curvature, where

@@ -139,7 +139,8 @@ class Writing:
     arc_tolerance: Annotated[
         float | None,
         typer.Option(
-            help="Largest distance of the arcs to the curve (default: 1/4 of the tolerance)."
+            help="Largest distance of the arcs to the curve, on top of the tolerance of the fit"
+            " (default: a quarter of it)."
         ),
     ] = None
     chord: Annotated[

@@ -79,6 +79,8 @@ def read(path: Path) -> Outlines:
             points = convert(entity, heights)
         except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError) as error:
             raise FormatError(f"a {kind} cannot be understood: {error}") from error
+        if not points:
+            skipped[f"{kind} without a curve"] = None
         runs.append(points)
     finite = [run for run in runs if _is_finite(run)]
     if len(finite) < len(runs):

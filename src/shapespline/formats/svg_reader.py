@@ -38,7 +38,7 @@ def read(path: Path) -> Outlines:
     Lines and Beziers are exact; arcs of ellipses become cubics within a billionth of their size. y
     is turned over within the view box, which is the frame. Where width or height have a unit of
     length (mm, cm, in, pt, pc, Q), coordinates are in that unit, otherwise they are those of the
-    view box, "px".
+    view box, "px". Colours are not kept: an outline inside another one counts as its hole.
 
     Parameters
     ----------
@@ -63,8 +63,8 @@ def read(path: Path) -> Outlines:
     page = prepared(path.read_bytes())
     if page.skipped:
         warnings.warn(
-            f"{path.name}: left out {', '.join(page.skipped)}, which are no outlines; convert text"
-            " to paths, and apply clips, in the drawing program",
+            f"{path.name}: no outlines and left out: {', '.join(page.skipped)}; convert text to"
+            " paths and apply clips in the drawing program",
             SkippedContentWarning,
             stacklevel=2,
         )
