@@ -19,19 +19,25 @@ PACKAGE = ROOT / "src" / "shapespline"
 # `formats` stand for all their modules.
 TIERS = [
     {"errors", "typing", "arrays", "_kernels", "_version"},
-    {"contour", "knots", "curve", "parametrize", "footpoint", "cpda", "drawing", "reading"},
     {
-        "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
+        "contour", "knots", "curve", "parametrize", "footpoint", "noise", "cpda", "drawing",
+        "reading", "frame",
+    },
+    {
+        "distance", "corners", "initial", "residuals", "solvers", "trace", "channels",
         "ordering", "formats", "plot",
     },
-    {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
+    {
+        "verification", "optimization", "sections", "nodes", "removal", "balance", "estimation",
+        "paper_figures",
+    },
     {"fitting"},
     {"reconstruction", "paper", "paper_report"},
     {"batch"},
     {"cli", "studio", "__main__"},
 ]  # fmt: skip
 TIER = {name: rank for rank, names in enumerate(TIERS) for name in names}
-GEOMETRY = TIERS[1] | {"distance", "corners", "noise", "initial", "residuals"}
+GEOMETRY = TIERS[1] | {"distance", "corners", "initial", "residuals"}
 
 SOURCES = sorted(path for path in PACKAGE.rglob("*.py"))
 

@@ -8,20 +8,25 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from shapespline.arrays import float_array, is_number
-from shapespline.balance import STRAY_WEIGHT, balanced_start
+from shapespline.balance import STRAY_WEIGHT, Balanced, balanced_start
 from shapespline.contour import Contour
-from shapespline.drawing import Fit, Status
+from shapespline.drawing import Fit
 from shapespline.errors import DegenerateContourError, InvalidInputError
-from shapespline.estimation import FINAL_LIMITS, chosen_count
+from shapespline.estimation import (
+    FINAL_LIMITS,
+    estimated_pieces,
+    pieces_cost,
+    resolution,
+    smooth_cost,
+    smooth_start,
+)
 from shapespline.knots import check_count, check_degree
 from shapespline.optimization import checked_weights, optimize
 from shapespline.removal import fit_spline
 from shapespline.sections import fit_pieces
+from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
-    from shapespline.curve import BSplineCurve
-    from shapespline.distance import Distances
-    from shapespline.drawing import Piece
     from shapespline.optimization import Callback
     from shapespline.typing import ArrayLike
 
@@ -100,7 +105,8 @@ def fit_curve(
     """
     degree = check_degree(degree)
     contour = _contour(points, closed)
-    if len(contour) < degree + 1 and tolerance is None:
+    one_spline = n_control_points is not None or weights is not None
+    if len(contour) < degree + 1 and tolerance is None and one_spline:
         raise DegenerateContourError(
             f"points must hold at least degree + 1 = {degree + 1} distinct points for degree"
             f" {degree}, got {len(contour)}; add points or lower the degree"
@@ -109,7 +115,7 @@ def fit_curve(
     _check_choice("effort", effort, get_args(Effort))
     if tolerance is not None and n_control_points is not None:
         raise InvalidInputError("tolerance and n_control_points exclude each other: give one")
-    if tolerance is None:
+    if n_control_points is not None:
         for name, value, default in (
             ("corners", corners, "auto"),
             ("form", form, "pieces"),
@@ -117,27 +123,37 @@ def fit_curve(
         ):
             if not (isinstance(value, str) and value == default):
                 raise InvalidInputError(
-                    f"{name} acts with a tolerance only: give one, or leave it out"
+                    f"{name} does not act with n_control_points: leave one of them out"
                 )
-    elif weights is not None:
-        raise InvalidInputError("weights act in least squares only: leave out the tolerance")
     if tolerance is not None:
+        if weights is not None:
+            raise InvalidInputError("weights act in least squares only: leave out the tolerance")
         return _within(contour, tolerance_length(tolerance, contour), degree, corners, form, effort)
     summed = checked_weights(weights, contour)
-    if n_control_points is None:
-        count = chosen_count(contour, degree, summed)
-    else:
+    ends = None
+    if n_control_points is not None:
         count = check_count(n_control_points, degree)
         if count > len(contour):
             raise InvalidInputError(
                 f"n_control_points must be at most the number of distinct points, {len(contour)},"
                 f" got {count}; lower it"
             )
+        start = balanced_start(contour, count, degree, summed)
+    else:
+        found = (
+            smooth_start(contour, degree, summed)
+            if weights is not None
+            else _estimated(contour, degree, corners, form, effort)
+        )
+        if isinstance(found, Fit):
+            return found
+        start, ends = found, None if contour.closed else "fitted"
     return optimize(
         contour,
-        balanced_start(contour, count, degree, summed),
+        start,
         method,
         weights=weights,
+        ends=ends,
         stray_weight=STRAY_WEIGHT,
         limits=FINAL_LIMITS,
         callback=callback,
@@ -195,20 +211,65 @@ def _within(
     if form == "spline":
         if not (corners is None or isinstance(corners, str)):
             raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
-        single = fit_spline(contour, tolerance, degree=degree, effort=effort)
-        return _fit(contour, single.curve, single.distances, tolerance, "removal")
+        return _single(contour, tolerance, degree, effort)
     pieces = fit_pieces(contour, tolerance, corners=corners, degree=degree, effort=effort)
-    fit = _fit(
-        contour, pieces.spline, pieces.distances, tolerance, "sections", sections=pieces.pieces
+    fit = verified_fit(
+        contour,
+        pieces.spline,
+        tolerance=tolerance,
+        method="sections",
+        sections=pieces.pieces,
+        distances=pieces.distances,
     )
     may_be_smooth = corners is None or not len(pieces.corners)
     if not may_be_smooth and not (isinstance(corners, str) and corners == "free"):
         return fit
-    single = fit_spline(contour, tolerance, degree=degree, effort=effort)
-    smooth = _fit(contour, single.curve, single.distances, tolerance, "removal")
+    smooth = _single(contour, tolerance, degree, effort)
     # Of equals the single spline: it has no joints.
     better = smooth.kept >= fit.kept and smooth.n_stored_points <= fit.n_stored_points
     return smooth if better else fit
+
+
+def _single(contour: Contour, tolerance: float, degree: int, effort: Effort) -> Fit:
+    """The smallest single spline within a tolerance."""
+    found = fit_spline(contour, tolerance, degree=degree, effort=effort)
+    return verified_fit(
+        contour, found.curve, tolerance=tolerance, method="removal", distances=found.distances
+    )
+
+
+def _estimated(
+    contour: Contour,
+    degree: int,
+    corners: Literal["auto", "free"] | ArrayLike | None,
+    form: Form,
+    effort: Effort,
+) -> Fit | Balanced:
+    """A curve for points of which nothing else is known; one spline is left to be finished.
+
+    Clean points: the smallest curve within what they can show. Noisy ones: pieces, where they tell
+    as much of the points as one spline at the same price.
+    """
+    shown = resolution(contour)
+    if shown.clean:
+        fit = _within(contour, shown.band, degree, corners, form, effort)
+        return verified_fit(
+            contour, fit.spline, tolerance=None, method=fit.method, sections=fit.sections
+        )
+    corners = _checked_corners(corners, len(contour))
+    start = smooth_start(contour, degree)
+    if form == "spline":
+        return start
+    pieces = estimated_pieces(contour, shown.noise, corners=corners, degree=degree, effort=effort)
+    one_run = not len(pieces.corners) and all(piece.kind != "line" for piece in pieces.pieces)
+    if isinstance(corners, str | None) and (
+        one_run
+        or smooth_cost(start, contour, shown.noise) < pieces_cost(pieces, contour, shown.noise)
+    ):
+        return start
+    return verified_fit(
+        contour, pieces.spline, tolerance=None, method="estimation", sections=pieces.pieces
+    )
 
 
 def _checked_corners(
@@ -223,37 +284,3 @@ def _checked_corners(
     if (given != np.floor(given)).any() or (given < 0).any() or (given >= n).any():
         raise InvalidInputError(message)
     return np.unique(given.astype(np.int64))
-
-
-def _fit(
-    contour: Contour,
-    spline: BSplineCurve,
-    distances: Distances,
-    tolerance: float,
-    method: str,
-    sections: tuple[Piece, ...] = (),
-) -> Fit:
-    """The Fit of a verified curve, with a status that is a true sentence."""
-    figures = (
-        f"data to curve {distances.max_distance:.6g},"
-        f" curve to data {distances.reverse_distance:.6g}"
-    )
-    if distances.hausdorff_distance <= tolerance:
-        status = Status.KEPT.saying(f"tolerance {tolerance:.6g} kept: {figures}")
-    else:
-        status = Status.EXCEEDED.saying(
-            f"tolerance {tolerance:.6g} not kept: {figures}; take a larger one"
-        )
-    return Fit(
-        spline=spline,
-        contour=contour,
-        parameters=distances.parameters[contour.source],
-        max_distance=distances.max_distance,
-        rms_distance=distances.rms_distance,
-        hausdorff_distance=distances.hausdorff_distance,
-        tolerance=tolerance,
-        status=status,
-        history=(),
-        method=method,
-        sections=sections,
-    )
