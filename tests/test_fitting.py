@@ -166,6 +166,13 @@ def test_few_points(n):
     assert fit_curve(ring, closed=True).n_stored_points == n
 
 
+def test_fewer_points_than_a_spline_needs():
+    triangle = [(0, 0), (1, 0), (0, 1)]
+    assert fit_curve(triangle, closed=True).n_stored_points == 3
+    with pytest.raises(DegenerateContourError, match=r"at least degree \+ 1 = 4 distinct points"):
+        fit_curve(triangle, n_control_points=4)
+
+
 # --- the balanced start ------------------------------------------------------------------------
 
 
@@ -215,7 +222,6 @@ def test_bad_arguments(arguments, error, message):
         (np.full((9, 2), np.nan), "points must be finite"),
         (np.zeros((2, 40)), r"got \(2, 40\); transpose it\?"),
         ([(0, 0)] * 9, "distinct points"),
-        ([(0, 0), (1, 0), (1, 1)], r"at least degree \+ 1 = 4 distinct points"),
     ],
 )
 def test_bad_points(points, message):
