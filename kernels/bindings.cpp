@@ -182,18 +182,21 @@ NB_MODULE(_kernels, m) {
         [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
            std::optional<In1> weights, int held, bool control_ends_fixed, double stray_weight,
            double damping, OutPoints control_step,
-           Out1 parameter_step) {
+           Out1 parameter_step, std::optional<In1> along) {
             nb::gil_scoped_release release;
-            const auto r = ss::damped_step(
-                knot_vector(knots, degree, periodic), vectors(control_points),
-                samples(points, parameters, weights, held, control_ends_fixed, stray_weight),
-                damping, vectors(control_step), parameter_step.data());
+            auto data =
+                samples(points, parameters, weights, held, control_ends_fixed, stray_weight);
+            if (along) data.along = along->data();
+            const auto r = ss::damped_step(knot_vector(knots, degree, periodic),
+                                           vectors(control_points), data, damping,
+                                           vectors(control_step), parameter_step.data());
             return std::make_tuple(r.solved, r.cost, r.predicted_cost, r.gradient_norm);
         },
         "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
         "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
         "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "damping"_a,
-        "control_step"_a.noconvert(), "parameter_step"_a.noconvert());
+        "control_step"_a.noconvert(), "parameter_step"_a.noconvert(),
+        "along"_a.none().noconvert() = nb::none());
 
     // The structured fit.
     m.def(

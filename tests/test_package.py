@@ -29,6 +29,7 @@ TIERS = [
     },
     {
         "verification", "optimization", "sections", "nodes", "removal", "balance", "estimation",
+        "placement",
         "paper_figures",
     },
     {"fitting"},

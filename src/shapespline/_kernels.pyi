@@ -100,6 +100,7 @@ def damped_step(
     damping: float,
     control_step: FloatArray,  # out (m, 2)
     parameter_step: FloatArray,  # out (n,)
+    along: FloatArray | None = None,  # (n,), parts of the residuals along the tangent that count
 ) -> tuple[bool, float, float, float]: ...  # solved, cost, predicted cost, gradient norm
 def corner_turns(
     points: FloatArray,  # (k, 2)

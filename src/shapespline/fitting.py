@@ -22,6 +22,7 @@ from shapespline.estimation import (
 )
 from shapespline.knots import check_count, check_degree
 from shapespline.optimization import checked_weights, optimize
+from shapespline.placement import dominant_start, uniform_start
 from shapespline.removal import fit_spline
 from shapespline.sections import fit_pieces
 from shapespline.verification import verified_fit
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
 
 Form = Literal["pieces", "spline"]
 Effort = Literal["fast", "balanced", "smallest"]
+Knots = Literal["balanced", "dominant", "uniform"]
+# What least squares of a given size starts from.
+STARTS = {"balanced": balanced_start, "dominant": dominant_start, "uniform": uniform_start}
 
 
 def fit_curve(
@@ -45,6 +49,7 @@ def fit_curve(
     form: Form = "pieces",
     effort: Effort = "balanced",
     weights: ArrayLike | None = None,
+    knots: Knots = "balanced",
     method: str = "levenberg-marquardt",
     callback: Callback | None = None,
 ) -> Fit:
@@ -52,8 +57,10 @@ def fit_curve(
 
     With a ``tolerance``: the fewest stored points that keep it, in both directions, as lines,
     Beziers and small splines or as one spline. With ``n_control_points``: one spline by least
-    squares, control points and parameters together. With neither, the same with a size that an
-    information criterion chooses, down to the noise or what the sampling can show.
+    squares, control points and parameters together. With neither the curve is estimated: clean
+    points give the smallest curve within what they can show, a twentieth to a tenth of a per cent
+    of the box diagonal or the accuracy of their source; noisy ones a least-squares curve whose size
+    a criterion chooses, in pieces with corners and straight runs where the points tell of them.
 
     Parameters
     ----------
@@ -69,14 +76,17 @@ def fit_curve(
     degree : int
         1 to 9.
     corners : "auto", "free", None or array_like of indices
-        With a tolerance: keep corners sharp and everything else tangent-continuous; round or make
+        Keep corners sharp and everything else tangent-continuous; round or make
         them where that is smaller; know none; or these points are the corners.
     form : {"pieces", "spline"}
-        With a tolerance: pieces between nodes, or one spline, smooth everywhere.
+        Pieces between nodes, or one spline, smooth everywhere.
     effort : {"fast", "balanced", "smallest"}
-        With a tolerance: how long to search.
+        How long to search.
     weights : array_like, shape (n,), optional
         One positive weight per point, for least squares.
+    knots : {"balanced", "dominant", "uniform"}
+        With a number of control points: spread until every span errs as much, or for comparison
+        at dominant points or equally spaced.
     method : str
         For least squares; see `optimize`.
     callback : callable, optional
@@ -113,6 +123,9 @@ def fit_curve(
         )
     _check_choice("form", form, get_args(Form))
     _check_choice("effort", effort, get_args(Effort))
+    _check_choice("knots", knots, get_args(Knots))
+    if knots != "balanced" and n_control_points is None:
+        raise InvalidInputError("knots act with n_control_points only: give a number of them")
     if tolerance is not None and n_control_points is not None:
         raise InvalidInputError("tolerance and n_control_points exclude each other: give one")
     if n_control_points is not None:
@@ -138,7 +151,7 @@ def fit_curve(
                 f"n_control_points must be at most the number of distinct points, {len(contour)},"
                 f" got {count}; lower it"
             )
-        start = balanced_start(contour, count, degree, summed)
+        start = STARTS[knots](contour, count, degree, summed)
     else:
         found = (
             smooth_start(contour, degree, summed)

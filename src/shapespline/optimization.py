@@ -17,6 +17,8 @@ from shapespline.drawing import Fit, Iteration
 from shapespline.errors import InvalidInputError
 from shapespline.footpoint import nondecreasing
 from shapespline.residuals import CurveProblem
+from shapespline.solvers.alternation import Alternation
+from shapespline.solvers.fixed_parameters import FixedParameters
 from shapespline.solvers.iteration import IterationRecord, Limits, Solver, minimize
 from shapespline.solvers.levenberg_marquardt import LevenbergMarquardt
 from shapespline.solvers.quasi_newton import METHODS as QUASI_NEWTON
@@ -31,7 +33,15 @@ if TYPE_CHECKING:
 
     Callback = Callable[[Iteration], bool | None]
 
-METHODS = ("levenberg-marquardt", *QUASI_NEWTON)
+# Methods for comparison, beside the generalised BFGS family: foot points in turn with control
+# points, or parameters that stay.
+COMPARISONS: dict[str, Alternation | FixedParameters] = {
+    "pdm": Alternation("point"),
+    "tdm": Alternation("tangent"),
+    "sdm": Alternation("squared"),
+    "fixed-parameters": FixedParameters(),
+}
+METHODS = ("levenberg-marquardt", *QUASI_NEWTON, *COMPARISONS)
 # Enough for Levenberg-Marquardt to converge and for the quasi-Newton family to come near.
 DEFAULT_LIMITS = Limits(max_iterations=300, max_evaluations=2000, relative_decrease=1e-6)
 
@@ -73,8 +83,10 @@ def optimize(
     method : str or Solver
         ``"levenberg-marquardt"`` (parameters eliminated), ``"d-bfgs"``, ``"d-bfgs-ns"``,
         ``"d-bfgs-inverse"``, ``"d-bfgs-inverse-ns"``, ``"oss"``, ``"oss-ns"``, ``"bfgs"``,
-        ``"l-bfgs"``; or a solver from ``solvers.quasi_newton.make_solver``, which takes the start
-        diagonal, the Wolfe conditions and the memory.
+        ``"l-bfgs"``; for comparison ``"pdm"``, ``"tdm"``, ``"sdm"`` (point-, tangent- and
+        squared-distance minimisation) and ``"fixed-parameters"``; or a solver from
+        ``solvers.quasi_newton.make_solver``, which takes the start diagonal, the Wolfe conditions
+        and the memory.
     tolerance : float, optional
         Stop as soon as no residual is longer, data units; the promise is then checked both ways.
     weights : array_like, shape (n_given,), optional
@@ -161,12 +173,14 @@ def optimize(
 
 def _solver(method: str | Solver[Any, Any]) -> tuple[Solver[Any, Any], str]:
     """The solver and its name."""
-    if isinstance(method, LevenbergMarquardt | QuasiNewton):
+    if isinstance(method, LevenbergMarquardt | QuasiNewton | Alternation | FixedParameters):
         return method, type(method).__name__
     if method not in METHODS:
         raise InvalidInputError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
     if method == "levenberg-marquardt":
         return LevenbergMarquardt(), method
+    if method in COMPARISONS:
+        return COMPARISONS[method], method
     return make_solver(method), method
 
 

@@ -28,6 +28,9 @@ struct Samples {
     Held held = Held::none;
     bool control_ends_fixed = false;  // the first and last control point do not move
     double stray_weight = 0.0;        // of the stray residuals; 0 for the plain problem
+    // The part in [0, 1] of each squared residual along the tangent that a step counts, where the
+    // parameters are found by projection and not by the step; null where they are eliminated.
+    const double *along = nullptr;
 
     std::size_t size() const { return points.size(); }
     double weight(std::size_t j) const { return weights ? weights[j] : 1.0; }
@@ -259,7 +262,8 @@ struct StepResult {
 // Levenberg-Marquardt step with the parameters eliminated: with h_j = |T_j|^2 (1 + lambda) and
 // W_j = I - T_j T_j' / h_j,
 //     (sum w N N' (x) W + lambda D) dP = -sum w N (x) W r,   dt_j = -T_j . (r_j + dC_j) / h_j.
-// D is the diagonal of the matrix plus 1e-11 of its largest entry.
+// D is the diagonal of the matrix plus 1e-11 of its largest entry. With parts c_j of the residuals
+// along the tangent to be counted, W_j = I - (1 - c_j) T_j T_j' / |T_j|^2 instead.
 inline StepResult damped_step(const Knots &knots, std::span<const Vec2> control_points,
                               const Samples &samples, double damping,
                               std::span<Vec2> control_step, double *parameter_step) {
@@ -277,6 +281,7 @@ inline StepResult damped_step(const Knots &knots, std::span<const Vec2> control_
     const auto inverse_h = [&](std::size_t j, Vec2 tangent) {
         const double speed_sq = norm_sq(tangent);
         if (samples.is_held(j) || speed_sq == 0.0) return 0.0;
+        if (samples.along) return (1.0 - samples.along[j]) / std::max(speed_sq, speed_floor);
         return 1.0 / (std::max(speed_sq, speed_floor) * (1.0 + damping));
     };
 
