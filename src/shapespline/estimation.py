@@ -16,11 +16,13 @@ from shapespline.balance import Balanced, balanced_start
 from shapespline.contour import Contour
 from shapespline.corners import find_corners
 from shapespline.distance import two_sided_distance
+from shapespline.frame import WorkingFrame
 from shapespline.noise import noise_level
 from shapespline.sections import SECTION_DEGREE, PiecesResult, fit_pieces
 from shapespline.solvers.iteration import Limits
 
 if TYPE_CHECKING:
+    from shapespline.drawing import Piece
     from shapespline.sections import Effort
     from shapespline.typing import ArrayLike, FloatArray, IntArray
 
@@ -45,6 +47,9 @@ PATIENCE, AT_LEAST = 5, 24
 SEARCH_POINTS = 10_000
 # A smoothed outline is followed within one of these numbers of its standard errors.
 STANDARD_ERRORS = (1.5, 2.0, 3.0)
+# A datum this many bands away tells that the estimate has missed something: a jump, a spike, a
+# track too sparse to be smoothed.
+FARTHEST = 1.5
 # The start of a least-squares fit has been balanced already: what is left falls by 1e-4 and less.
 FINAL_LIMITS = Limits(max_iterations=300, max_evaluations=1000, relative_decrease=1e-4)
 
@@ -148,6 +153,32 @@ def smooth_start(contour: Contour, degree: int, weights: FloatArray | None = Non
     return balanced_start(contour, size, degree, weights, rounds=0, ends="fitted")
 
 
+class Evidence(NamedTuple):
+    """What the points say of a curve.
+
+    ``cost`` is the sum of squared distances over the variance, and the price of what the curve
+    stores; ``farthest`` the largest distance of a point, data units.
+    """
+
+    cost: float
+    farthest: float
+
+    @classmethod
+    def of_spline(cls, start: Balanced, contour: Contour, noise: float) -> Evidence:
+        """Of one spline, at the parameters it has."""
+        squares = ((start.spline(start.parameters) - contour.points) ** 2).sum(axis=1)
+        price = PENALTY * start.spline.n_control_points
+        return cls(float(squares.sum()) / noise**2 + price, float(np.sqrt(squares.max())))
+
+    @classmethod
+    def of_pieces(cls, pieces: PiecesResult, contour: Contour, noise: float) -> Evidence:
+        """Of pieces; a corner is one of n places, which costs log n beside the points of it."""
+        found = two_sided_distance(pieces.spline, contour)
+        misfit = len(contour) * (found.rms_distance / noise) ** 2
+        price = PENALTY * pieces.n_stored_points + np.log(len(contour)) * len(pieces.corners)
+        return cls(misfit + price, found.max_distance)
+
+
 def estimated_pieces(
     contour: Contour,
     noise: float,
@@ -155,8 +186,8 @@ def estimated_pieces(
     corners: Literal["auto", "free"] | ArrayLike | None = "auto",
     degree: int = 3,
     effort: Effort = "balanced",
-) -> PiecesResult:
-    """Lines, Beziers and small splines behind noisy points; distances are to the smoothed outline.
+) -> tuple[tuple[Piece, ...], Evidence]:
+    """Lines, Beziers and small splines behind noisy points, and what the points say of them.
 
     Parameters
     ----------
@@ -167,16 +198,19 @@ def estimated_pieces(
         See `fit_pieces`; corners found by "auto" and "free" stay only where the criterion prefers
         two runs to one.
     """
-    found = _Runs(contour, min(degree, SECTION_DEGREE), noise)
+    frame = WorkingFrame.of(contour)
+    noise *= frame.scale
+    work = frame.contour
+    runs = _Runs(work, min(degree, SECTION_DEGREE), noise)
     if corners is None:
         at: IntArray = np.empty(0, dtype=np.int64)
     elif isinstance(corners, str):
-        at = found.kept_corners()
+        at = runs.kept_corners()
     else:
-        at = np.asarray(corners, dtype=np.int64)
-    points, size = found.joined(at)
-    outline = Contour.silently(points, contour.closed)
-    error = noise * float(np.sqrt(size / len(contour)))
+        at = np.unique(frame.place[np.asarray(corners, dtype=np.int64)])
+    points, size = runs.joined(at)
+    outline = Contour.silently(points, work.closed)
+    error = noise * float(np.sqrt(size / len(work)))
     free = isinstance(corners, str) and corners == "free"
     candidates = [
         fit_pieces(
@@ -188,23 +222,10 @@ def estimated_pieces(
         )
         for part in STANDARD_ERRORS
     ]
-    return min(candidates, key=lambda pieces: pieces_cost(pieces, contour, noise))
-
-
-def pieces_cost(pieces: PiecesResult, contour: Contour, noise: float) -> float:
-    """Sum of squares over the variance, price of the stored points and of the corners.
-
-    A corner is one of n places: it costs log n more than the points that make it.
-    """
-    n = len(contour)
-    misfit = n * (two_sided_distance(pieces.spline, contour).rms_distance / noise) ** 2
-    return misfit + PENALTY * pieces.n_stored_points + np.log(n) * len(pieces.corners)
-
-
-def smooth_cost(start: Balanced, contour: Contour, noise: float) -> float:
-    """The same of one spline."""
-    misfit = ((start.spline(start.parameters) - contour.points) ** 2).sum() / noise**2
-    return float(misfit) + PENALTY * start.spline.n_control_points
+    said = [Evidence.of_pieces(pieces, work, noise) for pieces in candidates]
+    best = min(range(len(said)), key=lambda i: said[i].cost)
+    evidence = said[best]._replace(farthest=said[best].farthest / frame.scale)
+    return frame.restored(candidates[best].pieces), evidence
 
 
 class _Runs:

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from shapespline.arrays import float_array, is_number
-from shapespline.balance import STRAY_WEIGHT, Balanced, balanced_start
+from shapespline.balance import STRAY_WEIGHT, balanced_start
 from shapespline.contour import Contour
-from shapespline.drawing import Fit
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.estimation import (
+    FARTHEST,
     FINAL_LIMITS,
+    Evidence,
     estimated_pieces,
-    pieces_cost,
     resolution,
-    smooth_cost,
     smooth_start,
 )
 from shapespline.knots import check_count, check_degree
+from shapespline.nodes import one_spline
 from shapespline.optimization import checked_weights, optimize
 from shapespline.placement import dominant_start, uniform_start
 from shapespline.removal import fit_spline
@@ -28,6 +28,7 @@ from shapespline.sections import fit_pieces
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
+    from shapespline.drawing import Fit
     from shapespline.optimization import Callback
     from shapespline.typing import ArrayLike
 
@@ -153,14 +154,10 @@ def fit_curve(
             )
         start = STARTS[knots](contour, count, degree, summed)
     else:
-        found = (
-            smooth_start(contour, degree, summed)
-            if weights is not None
-            else _estimated(contour, degree, corners, form, effort)
-        )
-        if isinstance(found, Fit):
-            return found
-        start, ends = found, None if contour.closed else "fitted"
+        estimate = _estimated(contour, degree, corners, form, effort) if weights is None else None
+        if estimate is not None:
+            return estimate
+        start, ends = smooth_start(contour, degree, summed), None if contour.closed else "fitted"
     return optimize(
         contour,
         start,
@@ -257,31 +254,38 @@ def _estimated(
     corners: Literal["auto", "free"] | ArrayLike | None,
     form: Form,
     effort: Effort,
-) -> Fit | Balanced:
-    """A curve for points of which nothing else is known; one spline is left to be finished.
+) -> Fit | None:
+    """A curve for points of which nothing else is known; None where one smooth spline is best.
 
     Clean points: the smallest curve within what they can show. Noisy ones: pieces, where they tell
-    as much of the points as one spline at the same price.
+    as much of the points as one spline at the same price. Points that neither comes near are no
+    noisy curve after all, and are treated as clean ones.
     """
-    shown = resolution(contour)
-    if shown.clean:
-        fit = _within(contour, shown.band, degree, corners, form, effort)
-        return verified_fit(
-            contour, fit.spline, tolerance=None, method=fit.method, sections=fit.sections
-        )
     corners = _checked_corners(corners, len(contour))
-    start = smooth_start(contour, degree)
-    if form == "spline":
-        return start
-    pieces = estimated_pieces(contour, shown.noise, corners=corners, degree=degree, effort=effort)
-    one_run = not len(pieces.corners) and all(piece.kind != "line" for piece in pieces.pieces)
-    if isinstance(corners, str | None) and (
-        one_run
-        or smooth_cost(start, contour, shown.noise) < pieces_cost(pieces, contour, shown.noise)
-    ):
-        return start
+    shown = resolution(contour)
+    farthest = np.inf
+    if not shown.clean:
+        start = smooth_start(contour, degree)
+        smooth = Evidence.of_spline(start, contour, shown.noise)
+        farthest = smooth.farthest
+        if form == "pieces":
+            pieces, said = estimated_pieces(
+                contour, shown.noise, corners=corners, degree=degree, effort=effort
+            )
+            spline = one_spline(pieces, degree)
+            given = not isinstance(corners, str | None)
+            one_run = len(pieces) == 1 and pieces[0].kind != "line"
+            if given or (said.cost <= smooth.cost and not one_run):
+                farthest = said.farthest
+                if farthest <= FARTHEST * shown.band:
+                    return verified_fit(
+                        contour, spline, tolerance=None, method="estimation", sections=pieces
+                    )
+        if farthest <= FARTHEST * shown.band:
+            return None
+    fit = _within(contour, shown.band, degree, corners, form, effort)
     return verified_fit(
-        contour, pieces.spline, tolerance=None, method="estimation", sections=pieces.pieces
+        contour, fit.spline, tolerance=None, method=fit.method, sections=fit.sections
     )
 
 
