@@ -23,6 +23,7 @@
 #include "shapespline/outline_search.hpp"
 #include "shapespline/removal_search.hpp"
 #include "shapespline/residuals.hpp"
+#include "shapespline/section_squares.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -213,15 +214,19 @@ NB_MODULE(_kernels, m) {
         "fit_sections",
         [](In2 points, bool closed, InIndices corner, InIndices forced,
            std::int64_t stride, double resolution, double tolerance, int largest_degree,
-           bool smooth, double least_corner, int passes, int widest) {
+           bool smooth, double least_corner, int passes, int widest,
+           std::optional<In2> observed, double noise) {
             nb::gil_scoped_release release;
             const ss::LaidOutOutline outline(
                 vectors(points), closed, {indices(corner), indices(forced)}, stride,
                 resolution);
             std::vector<std::int64_t> degrees, counts;
             std::vector<double> knots, coordinates;
-            for (const ss::Section &s : outline.search(tolerance, largest_degree, smooth,
-                                                       least_corner, passes, widest)) {
+            auto sections = outline.search(tolerance, largest_degree, smooth, least_corner, passes,
+                                           widest);
+            if (observed)
+                sections = ss::fit_observed(vectors(*observed), closed, std::move(sections), noise);
+            for (const ss::Section &s : sections) {
                 degrees.push_back(s.degree);
                 counts.push_back(static_cast<std::int64_t>(s.points.size()));
                 knots.insert(knots.end(), s.knots.begin(), s.knots.end());
@@ -231,7 +236,8 @@ NB_MODULE(_kernels, m) {
         },
         "points"_a.noconvert(), "closed"_a, "corner"_a.noconvert(),
         "forced"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a, "largest_degree"_a,
-        "smooth"_a, "least_corner"_a, "passes"_a, "widest"_a);
+        "smooth"_a, "least_corner"_a, "passes"_a, "widest"_a,
+        "observed"_a.none().noconvert() = nb::none(), "noise"_a = 0.0);
     // Knot removal: a search is a few calls, each a whole stage; see removal.hpp.
     nb::class_<ss::removal::RemovalSearch>(m, "RemovalSearch")
         .def(

@@ -122,6 +122,8 @@ def fit_sections(
     least_corner: float,
     passes: int,
     widest: int,
+    observed: FloatArray | None = None,  # (n, 2): the sections are fitted to these in the end
+    noise: float = 0.0,
 ) -> tuple[
     list[int], list[int], list[float], list[float]
 ]: ...  # of each section: degree, number of points, knots and coordinates end to end

@@ -17,8 +17,9 @@ from shapespline.contour import Contour
 from shapespline.corners import find_corners
 from shapespline.distance import two_sided_distance
 from shapespline.frame import WorkingFrame
+from shapespline.nodes import one_spline, turn_between
 from shapespline.noise import noise_level
-from shapespline.sections import SECTION_DEGREE, PiecesResult, fit_pieces
+from shapespline.sections import SECTION_DEGREE, SHARP_TURN, fit_observed
 from shapespline.solvers.iteration import Limits
 
 if TYPE_CHECKING:
@@ -39,10 +40,11 @@ NOISE_BAND, ACCURACY_BAND = 4.0, 3.0
 PENALTY = 3.5
 # Sizes tried grow by this factor, up to this part of the number of points; the search ends when so
 # many in a row were no better, but not before this size: an outline with many features shows
-# nothing until there is a control point for each.
-SIZE_FACTOR = 1.1
+# nothing until there is a control point for each. Then those around the best, in steps of a part.
+SIZE_FACTOR = 1.25
 LARGEST_PART = 0.25
-PATIENCE, AT_LEAST = 5, 24
+PATIENCE, AT_LEAST = 3, 32
+FINEST = 0.06
 # Points that the search for a size looks at: more tell it nothing new.
 SEARCH_POINTS = 10_000
 # A smoothed outline is followed within one of these numbers of its standard errors.
@@ -109,25 +111,34 @@ def smoothed(
     """The least-squares spline, or line, whose size makes the cost least.
 
     Minimises ``sum w |C(t) - Q|^2 / noise^2 + 3.5 m`` over the number m of control points (Mallows'
-    C_p with a dearer parameter), sizes growing by a tenth.
+    C_p with a dearer parameter), coarsely first, then finely.
     """
-    n = len(contour)
-    best = Smoothed(contour.points, np.inf, n, None)
+    best = Smoothed(contour.points, np.inf, len(contour), None)
     if not contour.closed and weights is None:
         best = _straight(contour, noise)
+    most = max(degree + 1, int(LARGEST_PART * len(contour)))
     size, misses = degree + 1, 0
-    while size <= max(degree + 1, LARGEST_PART * n) and (size <= AT_LEAST or misses < PATIENCE):
-        start = balanced_start(contour, size, degree, weights, rounds=0, ends="fitted")
-        points = start.spline(start.parameters)
-        squares = ((points - contour.points) ** 2).sum(axis=1)
-        total = float(squares.sum() if weights is None else weights @ squares)
-        cost = total / noise**2 + PENALTY * size
-        if cost < best.cost:
-            best, misses = Smoothed(points, cost, size, start), 0
-        else:
-            misses += 1
+    while size <= most and (size <= AT_LEAST or misses < PATIENCE):
+        found = _of_size(size, contour, degree, noise, weights)
+        best, misses = (found, 0) if found.cost < best.cost else (best, misses + 1)
         size = max(size + 1, round(SIZE_FACTOR * size))
+    middle = best.n_control_points
+    for size in range(round(middle / SIZE_FACTOR) + 1, round(middle * SIZE_FACTOR)):
+        if degree < size <= most and (size - middle) % max(1, round(FINEST * middle)) == 0:
+            found = _of_size(size, contour, degree, noise, weights)
+            best = found if found.cost < best.cost else best
     return best
+
+
+def _of_size(
+    size: int, contour: Contour, degree: int, noise: float, weights: FloatArray | None
+) -> Smoothed:
+    """The least-squares spline with so many control points."""
+    start = balanced_start(contour, size, degree, weights, rounds=0, ends="fitted")
+    points = start.spline(start.parameters)
+    squares = ((points - contour.points) ** 2).sum(axis=1)
+    total = float(squares.sum() if weights is None else weights @ squares)
+    return Smoothed(points, total / noise**2 + PENALTY * size, size, start)
 
 
 def _straight(contour: Contour, noise: float) -> Smoothed:
@@ -157,7 +168,8 @@ class Evidence(NamedTuple):
     """What the points say of a curve.
 
     ``cost`` is the sum of squared distances over the variance, and the price of what the curve
-    stores; ``farthest`` the largest distance of a point, data units.
+    stores; ``farthest`` the largest distance of a point, or of pieces
+    in either direction, data units.
     """
 
     cost: float
@@ -165,18 +177,26 @@ class Evidence(NamedTuple):
 
     @classmethod
     def of_spline(cls, start: Balanced, contour: Contour, noise: float) -> Evidence:
-        """Of one spline, at the parameters it has."""
-        squares = ((start.spline(start.parameters) - contour.points) ** 2).sum(axis=1)
-        price = PENALTY * start.spline.n_control_points
-        return cls(float(squares.sum()) / noise**2 + price, float(np.sqrt(squares.max())))
+        """Of one spline."""
+        found = two_sided_distance(start.spline, contour)
+        misfit = len(contour) * (found.rms_distance / noise) ** 2
+        return cls(misfit + PENALTY * start.spline.n_control_points, found.max_distance)
 
     @classmethod
-    def of_pieces(cls, pieces: PiecesResult, contour: Contour, noise: float) -> Evidence:
+    def of_pieces(
+        cls, pieces: tuple[Piece, ...], degree: int, contour: Contour, noise: float
+    ) -> Evidence:
         """Of pieces; a corner is one of n places, which costs log n beside the points of it."""
-        found = two_sided_distance(pieces.spline, contour)
+        found = two_sided_distance(one_spline(pieces, degree), contour)
         misfit = len(contour) * (found.rms_distance / noise) ** 2
-        price = PENALTY * pieces.n_stored_points + np.log(len(contour)) * len(pieces.corners)
-        return cls(misfit + price, found.max_distance)
+        stored = sum(len(piece.control_points) - 1 for piece in pieces)
+        stored += 0 if contour.closed else 1
+        sharp = [
+            abs(turn_between(before, after)) > SHARP_TURN
+            for before, after in pairwise([*pieces, *(pieces[:1] if contour.closed else ())])
+        ]
+        price = PENALTY * stored + np.log(len(contour)) * sum(sharp)
+        return cls(misfit + price, found.hausdorff_distance)
 
 
 def estimated_pieces(
@@ -199,6 +219,7 @@ def estimated_pieces(
         two runs to one.
     """
     frame = WorkingFrame.of(contour)
+    band = NOISE_BAND * noise
     noise *= frame.scale
     work = frame.contour
     runs = _Runs(work, min(degree, SECTION_DEGREE), noise)
@@ -210,22 +231,24 @@ def estimated_pieces(
         at = np.unique(frame.place[np.asarray(corners, dtype=np.int64)])
     points, size = runs.joined(at)
     outline = Contour.silently(points, work.closed)
+    observed = work.points[np.unique(outline.source, return_index=True)[1]]
     error = noise * float(np.sqrt(size / len(work)))
     free = isinstance(corners, str) and corners == "free"
-    candidates = [
-        fit_pieces(
+    found: list[tuple[Evidence, tuple[Piece, ...]]] = []
+    for part in STANDARD_ERRORS:
+        pieces = fit_observed(
             outline,
+            observed,
             part * error,
-            corners="free" if free else None if corners is None else outline.source[at],
+            noise,
+            corners=None if free else outline.source[at],
             degree=degree,
             effort=effort,
         )
-        for part in STANDARD_ERRORS
-    ]
-    said = [Evidence.of_pieces(pieces, work, noise) for pieces in candidates]
-    best = min(range(len(said)), key=lambda i: said[i].cost)
-    evidence = said[best]._replace(farthest=said[best].farthest / frame.scale)
-    return frame.restored(candidates[best].pieces), evidence
+        said = Evidence.of_pieces(pieces, degree, work, noise)
+        found.append((said._replace(farthest=said.farthest / frame.scale), pieces))
+    said, pieces = min(found, key=lambda one: (one[0].farthest > FARTHEST * band, one[0].cost))
+    return frame.restored(pieces), said
 
 
 class _Runs:

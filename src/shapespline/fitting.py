@@ -231,7 +231,8 @@ def _within(
         sections=pieces.pieces,
         distances=pieces.distances,
     )
-    may_be_smooth = corners is None or not len(pieces.corners)
+    straight = any(piece.kind == "line" for piece in pieces.pieces)
+    may_be_smooth = corners is None or not (len(pieces.corners) or straight)
     if not may_be_smooth and not (isinstance(corners, str) and corners == "free"):
         return fit
     smooth = _single(contour, tolerance, degree, effort)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 # Points on each side of the middle of a local fit.
 HALF_WINDOW = 3
 # Of fewer points nobody can tell noise from bends.
-FEWEST_POINTS = 28
+FEWEST_POINTS = 64
 # Median of a chi-squared variable with the 3 degrees of freedom that a cubic leaves of 7 points.
 _CHI_SQUARED_MEDIAN = 2.365974
 
@@ -25,7 +25,7 @@ def noise_level(contour: Contour) -> float:
     tangent of the cubic in the middle, so that uneven steps along the outline do not count. Under
     normal noise the tangent and what is left are independent, and the square of what is left is
     chi-squared: its median over all windows, which ignores corners, tells the deviation. Not less
-    than the accuracy that the contour is known to have; 0 for fewer than 28 points without one.
+    than the accuracy that the contour is known to have; 0 for fewer than 64 points without one.
 
     Examples
     --------

@@ -43,6 +43,8 @@ RELEASE = 0.7
 # Control points may move by this part of the tolerance to make a tangent exact: it is less than
 # what the first aim leaves.
 LARGEST_MOVE = 0.002
+# The same for a fit to noisy points, in standard deviations of the noise.
+OBSERVED_MOVE = 0.1
 # A node that turns more is a corner of the result, radians.
 SHARP_TURN = np.radians(1.01)
 # Sections are at most cubic; higher degrees are made by elevation.
@@ -196,6 +198,40 @@ def fit_pieces(
     return min((result, *others), key=lambda found: (not found.kept, found.n_stored_points))
 
 
+def fit_observed(
+    outline: Contour,
+    observed: FloatArray,
+    tolerance: float,
+    noise: float,
+    *,
+    corners: IntArray | None,
+    degree: int = 3,
+    effort: Effort = "balanced",
+) -> tuple[Piece, ...]:
+    """Pieces that follow a smoothed outline within a tolerance, then fitted to what was observed.
+
+    Parameters
+    ----------
+    outline : Contour
+        The smoothed outline, in the order and unit of a `WorkingFrame`.
+    observed : ndarray, shape (n, 2)
+        The noisy points, index for index.
+    tolerance : float
+        Between outline and pieces, before these are fitted to the points by least squares.
+    noise : float
+        Standard deviation of the points.
+    corners : ndarray or None
+        Indices of the corners that are kept; None lets the fit make and round them.
+    degree, effort
+        See `fit_pieces`.
+    """
+    kept = np.empty(0, dtype=np.int64) if corners is None else corners
+    faithful = corners is not None
+    task = _Task(outline, min(degree, SECTION_DEGREE), faithful, faithful, kept)
+    runs = [task.run(tolerance, search, observed, noise) for search in SEARCHES[effort]]
+    return min(runs, key=lambda pieces: sum(len(p.control_points) - 1 for p in pieces))
+
+
 def _chosen_corners(
     work: Contour, aim: float, corners: str | ArrayLike | None, frame: WorkingFrame
 ) -> IntArray:
@@ -230,8 +266,14 @@ class _Task(NamedTuple):
     smooth: bool
     corners: IntArray
 
-    def run(self, tolerance: float, search: Search) -> tuple[Piece, ...]:
-        """One run of the kernel."""
+    def run(
+        self,
+        tolerance: float,
+        search: Search,
+        observed: FloatArray | None = None,
+        noise: float = 0.0,
+    ) -> tuple[Piece, ...]:
+        """One run of the kernel; in the end a least-squares fit to what was observed."""
         n = len(self.contour)
         marked = np.zeros(n, dtype=np.int64)
         marked[self.corners] = 1
@@ -248,11 +290,14 @@ class _Task(NamedTuple):
             RELEASE * LEAST_TURN,
             search.passes,
             search.widest,
+            observed,
+            noise,
         )
         pieces = _unpacked(degrees, counts, np.array(knots), np.array(coordinates))
         if not self.smooth:
             return pieces
-        return aligned(pieces, LARGEST_MOVE * tolerance, closed=self.contour.closed)
+        largest_move = LARGEST_MOVE * tolerance if observed is None else OBSERVED_MOVE * noise
+        return aligned(pieces, largest_move, closed=self.contour.closed)
 
 
 def _through_all(contour: Contour) -> tuple[Piece, ...]:
