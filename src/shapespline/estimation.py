@@ -80,6 +80,15 @@ class Smoothed(NamedTuple):
     n_control_points: int
     start: Balanced | None
 
+    def tangent(self, end: int) -> FloatArray:
+        """Unit direction at the first (0) or last (-1) point of an open run."""
+        if self.start is None:
+            direction = self.points[-1] - self.points[0]
+        else:
+            spline = self.start.spline
+            direction = spline([spline.domain[end]], derivative=1)[0]
+        return direction / max(float(np.hypot(*direction)), np.finfo(float).tiny)
+
 
 def resolution(contour: Contour) -> Resolution:
     """What the points of a contour can show.
@@ -146,8 +155,8 @@ def _straight(contour: Contour, noise: float) -> Smoothed:
     middle = contour.points.mean(axis=0)
     off = contour.points - middle
     values, vectors = np.linalg.eigh(np.einsum("ji,jk->ik", off, off))
-    along = vectors[:, 1]
-    points = middle + np.outer(off @ along, along)
+    along = vectors[:, 1] * np.copysign(1.0, (off[-1] - off[0]) @ vectors[:, 1])
+    points = middle + np.outer(np.sort(off @ along), along)
     return Smoothed(points, max(float(values[0]), 0.0) / noise**2 + 2 * PENALTY, 2, None)
 
 
@@ -270,16 +279,33 @@ class _Runs:
         return np.array(kept, dtype=np.int64)
 
     def joined(self, corners: IntArray) -> tuple[FloatArray, int]:
-        """The smoothed points of all runs, means where two meet, and their control points."""
+        """The smoothed points of all runs, which meet in their corners, and their control points."""
         n = len(self._contour)
-        total, count, size = np.zeros((n, 2)), np.zeros((n, 1)), 0
-        for run in self._cut(corners.tolist()):
-            smooth = self._run(*run)
-            at = np.arange(run[0], run[1]) % n
-            np.add.at(total, at, smooth.points)
-            np.add.at(count, at, 1)
-            size += smooth.n_control_points
-        return total / count, size
+        cut = self._cut(corners.tolist())
+        runs = [self._run(*run) for run in cut]
+        pieces = [run.points.copy() for run in runs]
+        for i in range(0 if len(corners) and self._contour.closed else 1, len(pieces)):
+            self._meet(runs[i - 1], pieces[i - 1], runs[i], pieces[i])
+        points = np.empty((n, 2))
+        for run, piece in zip(cut, pieces, strict=True):
+            points[np.arange(*run) % n] = piece
+        return points, sum(run.n_control_points for run in runs)
+
+    def _meet(self, before: Smoothed, left: FloatArray, after: Smoothed, right: FloatArray) -> None:
+        """Ends two runs where their tangents cross, or half-way if that is beyond the noise."""
+        u, v = before.tangent(-1), after.tangent(0)
+        gap, turn = right[0] - left[-1], u[0] * v[1] - u[1] * v[0]
+        corner = left[-1] + 0.5 * gap
+        if abs(turn) > 1e-3:
+            crossing = left[-1] + (gap[0] * v[1] - gap[1] * v[0]) / turn * u
+            if np.hypot(*(crossing - corner)) <= NOISE_BAND * self._noise:
+                corner = crossing
+        reach = NOISE_BAND * self._noise
+        for points, direction in ((left, u), (right, -v)):
+            off = points - corner
+            beyond = (off @ direction > 0) & (np.hypot(off[:, 0], off[:, 1]) <= reach)
+            points[beyond] = corner
+        left[-1] = right[0] = corner
 
     def _cost(self, corners: list[int], near: int) -> float:
         """Of the runs that hold a point."""

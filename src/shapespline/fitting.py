@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -19,6 +20,7 @@ from shapespline.estimation import (
     resolution,
     smooth_start,
 )
+from shapespline.frame import WorkingFrame, reversed_curve
 from shapespline.knots import check_count, check_degree
 from shapespline.nodes import one_spline
 from shapespline.optimization import checked_weights, optimize
@@ -28,6 +30,7 @@ from shapespline.sections import fit_pieces
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
+    from shapespline.balance import Balanced
     from shapespline.drawing import Fit
     from shapespline.optimization import Callback
     from shapespline.typing import ArrayLike
@@ -144,26 +147,22 @@ def fit_curve(
             raise InvalidInputError("weights act in least squares only: leave out the tolerance")
         return _within(contour, tolerance_length(tolerance, contour), degree, corners, form, effort)
     summed = checked_weights(weights, contour)
-    ends = None
-    if n_control_points is not None:
-        count = check_count(n_control_points, degree)
-        if count > len(contour):
-            raise InvalidInputError(
-                f"n_control_points must be at most the number of distinct points, {len(contour)},"
-                f" got {count}; lower it"
-            )
-        start = STARTS[knots](contour, count, degree, summed)
-    else:
-        estimate = _estimated(contour, degree, corners, form, effort) if weights is None else None
-        if estimate is not None:
-            return estimate
-        start, ends = smooth_start(contour, degree, summed), None if contour.closed else "fitted"
+    if n_control_points is None:
+        if weights is None:
+            return _estimated(contour, degree, corners, form, effort, method, callback)
+        start = smooth_start(contour, degree, summed)
+        return _finished(contour, start, method, weights, callback)
+    count = check_count(n_control_points, degree)
+    if count > len(contour):
+        raise InvalidInputError(
+            f"n_control_points must be at most the number of distinct points, {len(contour)},"
+            f" got {count}; lower it"
+        )
     return optimize(
         contour,
-        start,
+        STARTS[knots](contour, count, degree, summed),
         method,
         weights=weights,
-        ends=ends,
         stray_weight=STRAY_WEIGHT,
         limits=FINAL_LIMITS,
         callback=callback,
@@ -255,38 +254,65 @@ def _estimated(
     corners: Literal["auto", "free"] | ArrayLike | None,
     form: Form,
     effort: Effort,
-) -> Fit | None:
-    """A curve for points of which nothing else is known; None where one smooth spline is best.
+    method: str,
+    callback: Callback | None,
+) -> Fit:
+    """A curve for points of which nothing else is known.
 
     Clean points: the smallest curve within what they can show. Noisy ones: pieces, where they tell
-    as much of the points as one spline at the same price. Points that neither comes near are no
-    noisy curve after all, and are treated as clean ones.
+    as much of the points as one least-squares spline at the same price, or that spline. Points
+    that neither comes near are no noisy curve after all, and are treated as clean ones.
     """
     corners = _checked_corners(corners, len(contour))
-    shown = resolution(contour)
-    farthest = np.inf
+    frame = WorkingFrame.of(contour)
+    ordered = Contour.silently(
+        contour.points[frame.order], contour.closed, accuracy=contour.accuracy
+    )
+    shown = resolution(ordered)
     if not shown.clean:
-        start = smooth_start(contour, degree)
-        smooth = Evidence.of_spline(start, contour, shown.noise)
-        farthest = smooth.farthest
+        start = smooth_start(ordered, degree)
+        smooth = Evidence.of_spline(start, ordered, shown.noise)
         if form == "pieces":
             pieces, said = estimated_pieces(
                 contour, shown.noise, corners=corners, degree=degree, effort=effort
             )
-            spline = one_spline(pieces, degree)
             given = not isinstance(corners, str | None)
             one_run = len(pieces) == 1 and pieces[0].kind != "line"
-            if given or (said.cost <= smooth.cost and not one_run):
-                farthest = said.farthest
-                if farthest <= FARTHEST * shown.band:
-                    return verified_fit(
-                        contour, spline, tolerance=None, method="estimation", sections=pieces
-                    )
-        if farthest <= FARTHEST * shown.band:
-            return None
+            chosen = given or (said.cost <= smooth.cost and not one_run)
+            if chosen and said.farthest <= FARTHEST * shown.band:
+                spline = one_spline(pieces, degree)
+                return verified_fit(
+                    contour, spline, tolerance=None, method="estimation", sections=pieces
+                )
+        if smooth.farthest <= FARTHEST * shown.band:
+            fit = _finished(ordered, start, method, None, callback)
+            spline, parameters = fit.spline, fit.parameters[frame.place][contour.source]
+            if frame.reversed:
+                spline, parameters = reversed_curve(spline), 1.0 - parameters
+            return replace(fit, contour=contour, spline=spline, parameters=parameters)
     fit = _within(contour, shown.band, degree, corners, form, effort)
     return verified_fit(
         contour, fit.spline, tolerance=None, method=fit.method, sections=fit.sections
+    )
+
+
+def _finished(
+    contour: Contour,
+    start: Balanced,
+    method: str,
+    weights: ArrayLike | None,
+    callback: Callback | None,
+) -> Fit:
+    """Least squares to the end from a start whose size was chosen, its ends free to leave noise."""
+    return optimize(
+        contour,
+        start,
+        method,
+        weights=weights,
+        ends=None if contour.closed else "fitted",
+        stray_weight=STRAY_WEIGHT,
+        limits=FINAL_LIMITS,
+        callback=callback,
     )
 
 

@@ -80,18 +80,17 @@ class WorkingFrame(NamedTuple):
     def restored_curve(self, curve: BSplineCurve) -> BSplineCurve:
         """A curve over [0, 1] in the unit and direction of the data."""
         control_points = curve.control_points / self.scale + self.middle
-        knots = curve.knots
-        if self.reversed:
-            knots = 1.0 - knots[::-1]
-            control_points = control_points[::-1]
-            if curve.periodic:  # the points beyond the seam have changed sides
-                control_points = np.roll(control_points, curve.degree, axis=0)
-        return BSplineCurve(
-            np.ascontiguousarray(knots),
-            np.ascontiguousarray(control_points),
-            curve.degree,
-            curve.periodic,
-        )
+        moved = BSplineCurve(curve.knots, control_points, curve.degree, curve.periodic)
+        return reversed_curve(moved) if self.reversed else moved
+
+
+def reversed_curve(curve: BSplineCurve) -> BSplineCurve:
+    """A curve over [0, 1] that runs the other way."""
+    control_points = curve.control_points[::-1]
+    if curve.periodic:  # the points beyond the seam have changed sides
+        control_points = np.roll(control_points, curve.degree, axis=0)
+    knots = np.ascontiguousarray(1.0 - curve.knots[::-1])
+    return BSplineCurve(knots, np.ascontiguousarray(control_points), curve.degree, curve.periodic)
 
 
 def _canonical_order(points: FloatArray, *, closed: bool) -> tuple[IntArray, bool]:
