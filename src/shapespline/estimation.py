@@ -49,6 +49,8 @@ FINEST = 0.06
 SEARCH_POINTS = 10_000
 # A smoothed outline is followed within one of these numbers of its standard errors.
 STANDARD_ERRORS = (1.5, 2.0, 3.0)
+# Pieces may cost this much of what one spline costs and still be preferred.
+CHARACTER = 1.02
 # A datum this many bands away tells that the estimate has missed something: a jump, a spike, a
 # track too sparse to be smoothed.
 FARTHEST = 1.5
@@ -183,19 +185,35 @@ class Evidence(NamedTuple):
 
     cost: float
     farthest: float
+    n_stored_points: int
+
+    def preferred_to(self, smooth: Evidence) -> bool:
+        """Whether pieces are better than one spline: no larger, and hardly dearer if at all.
+
+        Corners and straight runs are worth a little misfit to those who look at them.
+        """
+        return (
+            self.cost <= CHARACTER * smooth.cost and self.n_stored_points <= smooth.n_stored_points
+        )
 
     @classmethod
     def of_spline(cls, start: Balanced, contour: Contour, noise: float) -> Evidence:
         """Of one spline."""
         found = two_sided_distance(start.spline, contour)
         misfit = len(contour) * (found.rms_distance / noise) ** 2
-        return cls(misfit + PENALTY * start.spline.n_control_points, found.max_distance)
+        size = start.spline.n_control_points
+        return cls(misfit + PENALTY * size, found.max_distance, size)
 
     @classmethod
     def of_pieces(
-        cls, pieces: tuple[Piece, ...], degree: int, contour: Contour, noise: float
+        cls,
+        pieces: tuple[Piece, ...],
+        degree: int,
+        contour: Contour,
+        noise: float,
+        n_proven: int,
     ) -> Evidence:
-        """Of pieces; a corner is one of n places, which costs log n beside the points of it."""
+        """Of pieces; a corner that is not proven is one of n places, which costs log n more."""
         found = two_sided_distance(one_spline(pieces, degree), contour)
         misfit = len(contour) * (found.rms_distance / noise) ** 2
         stored = sum(len(piece.control_points) - 1 for piece in pieces)
@@ -204,8 +222,8 @@ class Evidence(NamedTuple):
             abs(turn_between(before, after)) > SHARP_TURN
             for before, after in pairwise([*pieces, *(pieces[:1] if contour.closed else ())])
         ]
-        price = PENALTY * stored + np.log(len(contour)) * sum(sharp)
-        return cls(misfit + price, found.hausdorff_distance)
+        price = PENALTY * stored + np.log(len(contour)) * max(0, sum(sharp) - n_proven)
+        return cls(misfit + price, found.hausdorff_distance, stored)
 
 
 def estimated_pieces(
@@ -254,7 +272,7 @@ def estimated_pieces(
             degree=degree,
             effort=effort,
         )
-        said = Evidence.of_pieces(pieces, degree, work, noise)
+        said = Evidence.of_pieces(pieces, degree, work, noise, len(at))
         found.append((said._replace(farthest=said.farthest / frame.scale), pieces))
     said, pieces = min(found, key=lambda one: (one[0].farthest > FARTHEST * band, one[0].cost))
     return frame.restored(pieces), said
@@ -279,7 +297,7 @@ class _Runs:
         return np.array(kept, dtype=np.int64)
 
     def joined(self, corners: IntArray) -> tuple[FloatArray, int]:
-        """The smoothed points of all runs, which meet in their corners, and their control points."""
+        """The smoothed points of all runs, which meet in corners, and their control points."""
         n = len(self._contour)
         cut = self._cut(corners.tolist())
         runs = [self._run(*run) for run in cut]

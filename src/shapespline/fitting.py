@@ -278,7 +278,7 @@ def _estimated(
             )
             given = not isinstance(corners, str | None)
             one_run = len(pieces) == 1 and pieces[0].kind != "line"
-            chosen = given or (said.cost <= smooth.cost and not one_run)
+            chosen = given or (said.preferred_to(smooth) and not one_run)
             if chosen and said.farthest <= FARTHEST * shown.band:
                 spline = one_spline(pieces, degree)
                 return verified_fit(
