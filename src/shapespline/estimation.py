@@ -49,8 +49,9 @@ FINEST = 0.06
 SEARCH_POINTS = 10_000
 # A smoothed outline is followed within one of these numbers of its standard errors.
 STANDARD_ERRORS = (1.5, 2.0, 3.0)
-# Pieces may cost this much of what one spline costs and still be preferred.
-CHARACTER = 1.02
+# Pieces must not cost more than this part of what one spline costs: with corners that are proven,
+# which everybody sees, and without.
+CHARACTER, NO_CORNERS = 1.02, 0.97
 # A datum this many bands away tells that the estimate has missed something: a jump, a spike, a
 # track too sparse to be smoothed.
 FARTHEST = 1.5
@@ -186,15 +187,12 @@ class Evidence(NamedTuple):
     cost: float
     farthest: float
     n_stored_points: int
+    n_proven_corners: int = 0
 
     def preferred_to(self, smooth: Evidence) -> bool:
-        """Whether pieces are better than one spline: no larger, and hardly dearer if at all.
-
-        Corners and straight runs are worth a little misfit to those who look at them.
-        """
-        return (
-            self.cost <= CHARACTER * smooth.cost and self.n_stored_points <= smooth.n_stored_points
-        )
+        """Whether pieces are better than one spline: no larger, and not too dear."""
+        part = CHARACTER if self.n_proven_corners else NO_CORNERS
+        return self.cost <= part * smooth.cost and self.n_stored_points <= smooth.n_stored_points
 
     @classmethod
     def of_spline(cls, start: Balanced, contour: Contour, noise: float) -> Evidence:
@@ -223,7 +221,7 @@ class Evidence(NamedTuple):
             for before, after in pairwise([*pieces, *(pieces[:1] if contour.closed else ())])
         ]
         price = PENALTY * stored + np.log(len(contour)) * max(0, sum(sharp) - n_proven)
-        return cls(misfit + price, found.hausdorff_distance, stored)
+        return cls(misfit + price, found.hausdorff_distance, stored, n_proven)
 
 
 def estimated_pieces(
