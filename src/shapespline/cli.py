@@ -123,8 +123,8 @@ def fit(
         typer.Option(
             "--control-points",
             "-n",
-            help="Control points of each curve (default without a tolerance: as many as pay by"
-            " an information criterion).",
+            help="Control points of each curve (default without a tolerance: found from the noise"
+            " of the points or from what they can show).",
         ),
     ] = None,
     degree: Degree = 3,

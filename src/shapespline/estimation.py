@@ -125,6 +125,13 @@ def smoothed(
     Minimises ``sum w |C(t) - Q|^2 / noise^2 + 3.5 m`` over the number m of control points (Mallows'
     C_p with a dearer parameter), coarsely first, then finely.
     """
+    if len(contour) > SEARCH_POINTS and weights is None:
+        stride = -(-len(contour) // SEARCH_POINTS)
+        thinned = Contour.silently(contour.points[::stride], contour.closed)
+        size = smoothed(thinned, degree, noise).n_control_points
+        if size <= degree:
+            return _straight(contour, noise)
+        return _of_size(size, contour, degree, noise)
     best = Smoothed(contour.points, np.inf, len(contour), None)
     if not contour.closed and weights is None:
         best = _straight(contour, noise)
@@ -143,7 +150,11 @@ def smoothed(
 
 
 def _of_size(
-    size: int, contour: Contour, degree: int, noise: float, weights: FloatArray | None
+    size: int,
+    contour: Contour,
+    degree: int,
+    noise: float,
+    weights: FloatArray | None = None,
 ) -> Smoothed:
     """The least-squares spline with so many control points."""
     start = balanced_start(contour, size, degree, weights, rounds=0, ends="fitted")
@@ -166,14 +177,10 @@ def _straight(contour: Contour, noise: float) -> Smoothed:
 def smooth_start(contour: Contour, degree: int, weights: FloatArray | None = None) -> Balanced:
     """One spline over the whole contour, of the size that the criterion chooses."""
     shown = resolution(contour)
-    looked_at = contour
-    if len(contour) > SEARCH_POINTS and weights is None:
-        looked_at = contour.resampled(SEARCH_POINTS)
-    found = smoothed(looked_at, degree, max(shown.noise, shown.band / NOISE_BAND), weights)
-    if found.start is not None and looked_at is contour:
+    found = smoothed(contour, degree, max(shown.noise, shown.band / NOISE_BAND), weights)
+    if found.start is not None:
         return found.start
-    size = max(degree + 1, found.n_control_points)
-    return balanced_start(contour, size, degree, weights, rounds=0, ends="fitted")
+    return balanced_start(contour, degree + 1, degree, weights, rounds=0, ends="fitted")
 
 
 class Evidence(NamedTuple):
