@@ -23,6 +23,7 @@
 #include "shapespline/outline_search.hpp"
 #include "shapespline/removal_search.hpp"
 #include "shapespline/residuals.hpp"
+#include "shapespline/section_squares.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -182,18 +183,21 @@ NB_MODULE(_kernels, m) {
         [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
            std::optional<In1> weights, int held, bool control_ends_fixed, double stray_weight,
            double damping, OutPoints control_step,
-           Out1 parameter_step) {
+           Out1 parameter_step, std::optional<In1> along) {
             nb::gil_scoped_release release;
-            const auto r = ss::damped_step(
-                knot_vector(knots, degree, periodic), vectors(control_points),
-                samples(points, parameters, weights, held, control_ends_fixed, stray_weight),
-                damping, vectors(control_step), parameter_step.data());
+            auto data =
+                samples(points, parameters, weights, held, control_ends_fixed, stray_weight);
+            if (along) data.along = along->data();
+            const auto r = ss::damped_step(knot_vector(knots, degree, periodic),
+                                           vectors(control_points), data, damping,
+                                           vectors(control_step), parameter_step.data());
             return std::make_tuple(r.solved, r.cost, r.predicted_cost, r.gradient_norm);
         },
         "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
         "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
         "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "damping"_a,
-        "control_step"_a.noconvert(), "parameter_step"_a.noconvert());
+        "control_step"_a.noconvert(), "parameter_step"_a.noconvert(),
+        "along"_a.none().noconvert() = nb::none());
 
     // The structured fit.
     m.def(
@@ -210,15 +214,19 @@ NB_MODULE(_kernels, m) {
         "fit_sections",
         [](In2 points, bool closed, InIndices corner, InIndices forced,
            std::int64_t stride, double resolution, double tolerance, int largest_degree,
-           bool smooth, double least_corner, int passes, int widest) {
+           bool smooth, double least_corner, int passes, int widest,
+           std::optional<In2> observed, double noise) {
             nb::gil_scoped_release release;
             const ss::LaidOutOutline outline(
                 vectors(points), closed, {indices(corner), indices(forced)}, stride,
                 resolution);
             std::vector<std::int64_t> degrees, counts;
             std::vector<double> knots, coordinates;
-            for (const ss::Section &s : outline.search(tolerance, largest_degree, smooth,
-                                                       least_corner, passes, widest)) {
+            auto sections = outline.search(tolerance, largest_degree, smooth, least_corner, passes,
+                                           widest);
+            if (observed)
+                sections = ss::fit_observed(vectors(*observed), closed, std::move(sections), noise);
+            for (const ss::Section &s : sections) {
                 degrees.push_back(s.degree);
                 counts.push_back(static_cast<std::int64_t>(s.points.size()));
                 knots.insert(knots.end(), s.knots.begin(), s.knots.end());
@@ -228,7 +236,8 @@ NB_MODULE(_kernels, m) {
         },
         "points"_a.noconvert(), "closed"_a, "corner"_a.noconvert(),
         "forced"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a, "largest_degree"_a,
-        "smooth"_a, "least_corner"_a, "passes"_a, "widest"_a);
+        "smooth"_a, "least_corner"_a, "passes"_a, "widest"_a,
+        "observed"_a.none().noconvert() = nb::none(), "noise"_a = 0.0);
     // Knot removal: a search is a few calls, each a whole stage; see removal.hpp.
     nb::class_<ss::removal::RemovalSearch>(m, "RemovalSearch")
         .def(

@@ -47,6 +47,13 @@ class LeastSquares:
         decrease = 0.5 * float(r @ r - model @ model)
         return Proposal(x + step, decrease, float(np.sqrt(gradient @ (gradient / diagonal))))
 
+    def metric_step(self, x, metric, damping):
+        """No parameters here: every metric is the damped Gauss-Newton step."""
+        return self.damped_step(x, damping)
+
+    def projected(self, x):
+        return x
+
 
 class Rosenbrock(LeastSquares):
     name = "rosenbrock"

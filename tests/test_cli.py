@@ -160,8 +160,6 @@ def test_repeated_points_are_said(shapespline, tmp_path):
         ("1,2,3\n4,5,6\n7,8,9\n", "expected 2 columns (x and y), found 3"),
         ("x,y\n", "no points: only a line of words, 'x,y'"),
         ("1,2\n1,2\n", "distinct points"),
-        ("0,0\n1,0\n", "degree"),
-        ("0,0\n1,0\n2,1\n", "degree"),
     ],
 )
 def test_bad_outlines(shapespline, tmp_path, content, message):

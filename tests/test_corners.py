@@ -6,7 +6,6 @@ from tests.shapes import moved, on_circle, rectangle
 
 from shapespline.contour import Contour
 from shapespline.corners import find_corners, tangent_jumps
-from shapespline.noise import noise_level
 
 
 def stadium(radius=5.0, side=20.0, spacing=0.25):
@@ -99,19 +98,3 @@ def test_tangent_jump_has_the_sign_of_the_turn():
     right = tangent_jumps(mirrored, 4.0, mirrored.arc_length)[-1]
     assert left == pytest.approx(np.pi / 2)
     assert right == pytest.approx(-np.pi / 2)
-
-
-def test_noise_level_finds_the_noise_that_was_added():
-    rng = np.random.default_rng(3)
-    contour = Contour(on_circle(2000, 50.0) + rng.normal(0, 0.2, (2000, 2)), closed=True)
-    # 14 degrees of freedom a window: the median of chi is 2.4 % below its root mean square.
-    assert noise_level(contour) == pytest.approx(0.2, rel=0.06)
-
-
-def test_noise_level_of_a_clean_line_is_nothing():
-    x = np.linspace(0, 1, 100)
-    assert noise_level(Contour(np.column_stack([x, 2 * x]), closed=False)) < 1e-14
-
-
-def test_noise_level_of_few_points_is_nothing():
-    assert noise_level(Contour([(0, 0), (1, 0), (1, 1)], closed=True)) == 0.0

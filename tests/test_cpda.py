@@ -17,7 +17,6 @@ from shapespline.cpda import (
     chord_to_point,
     local_maxima,
     moving_average,
-    noise_level,
     round_off_floor,
 )
 from shapespline.errors import InvalidInputError
@@ -164,31 +163,6 @@ def test_too_long():
 
 
 # --- noise, smoothing --------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("sigma", [0.01, 0.05])  # of a step
-@pytest.mark.parametrize(
-    "contour", [flower(40_000), rectangle(12_000, 8_000)], ids=["flower", "box"]
-)
-def test_known_noise_is_found(sigma, contour):
-    n = len(contour)
-    # A step of the flower is down to 2/3 of the mean one.
-    deviation = sigma * contour.length / n
-    noise = np.random.default_rng(5).normal(0, deviation, (n, 2))
-    found = noise_level(Contour(contour.points + noise, True))
-    # What is taken the median of is 1.5 (e_i+1 - e_i) - 0.5 (e_i+2 - e_i-1): variance 5. The
-    # median of n normal values has a relative deviation of 1.17 / sqrt(n), of values correlated
-    # over 4 places twice that; three of them. Noise along the chords turns and stretches them by
-    # sigma squared.
-    assert abs(found / deviation - 1) <= 3 * 2 * 1.17 / np.sqrt(n) + 4 * sigma**2
-
-
-def test_clean_data_have_little_noise():
-    assert noise_level(rectangle(30, 20)) == 0
-    assert noise_level(wave(6)) == 0
-    # A smooth outline: the change of k d^2 / 2 over one step, far below the step itself.
-    contour = flower(840)
-    assert noise_level(contour) < 1e-3 * contour.length / 840
 
 
 @pytest.mark.parametrize("closed", [False, True])

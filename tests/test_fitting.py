@@ -17,7 +17,6 @@ from shapespline import (
     fit_shape,
 )
 from shapespline.balance import balanced_start, bending_parameters
-from shapespline.fitting import chosen_count
 
 # Root mean square and two-sided distance at an equal number of control points, box diagonal 100:
 # the best joint fit of other programs, one-sided (rms, maximum), which ours must beat both ways.
@@ -163,33 +162,15 @@ def test_few_points(n):
         assert np.isfinite(fit.hausdorff_distance)
         # n points on a circle and the polygon between them: no curve need leave it by a radius.
         assert fit.hausdorff_distance < 1.0
-    assert fit_curve(ring, closed=True).n_control_points == 4
+    # Nothing known of so few: the polygon.
+    assert fit_curve(ring, closed=True).n_stored_points == n
 
 
-# --- the number of control points --------------------------------------------------------------
-
-
-def test_the_chosen_count_grows_with_the_detail():
-    t = 2 * np.pi * np.arange(400) / 400
-
-    def wavy(petals):
-        r = 10 + np.cos(petals * t)
-        return Contour(np.column_stack([r * np.cos(t), r * np.sin(t)]), closed=True)
-
-    counts = [chosen_count(wavy(petals), 3) for petals in (0, 3, 12)]
-    assert counts[0] < counts[1] < counts[2]
-
-
-def test_noise_lowers_the_chosen_count(outline):
-    clean, noisy = outline("loop500_open"), outline("loop500_n1_open")
-    assert chosen_count(noisy, 3) < chosen_count(clean, 3)
-
-
-def test_no_parameter_at_all(outline):
-    fit = fit_curve(outline("hand620_closed").points)
-    assert fit.closed
-    assert fit.tolerance == fit.hausdorff_distance
-    assert fit.hausdorff_distance < 0.002 * fit.contour.box_diagonal
+def test_fewer_points_than_a_spline_needs():
+    triangle = [(0, 0), (1, 0), (0, 1)]
+    assert fit_curve(triangle, closed=True).n_stored_points == 3
+    with pytest.raises(DegenerateContourError, match=r"at least degree \+ 1 = 4 distinct points"):
+        fit_curve(triangle, n_control_points=4)
 
 
 # --- the balanced start ------------------------------------------------------------------------
@@ -241,7 +222,6 @@ def test_bad_arguments(arguments, error, message):
         (np.full((9, 2), np.nan), "points must be finite"),
         (np.zeros((2, 40)), r"got \(2, 40\); transpose it\?"),
         ([(0, 0)] * 9, "distinct points"),
-        ([(0, 0), (1, 0), (1, 1)], r"at least degree \+ 1 = 4 distinct points"),
     ],
 )
 def test_bad_points(points, message):

@@ -20,22 +20,26 @@ PACKAGE = ROOT / "src" / "shapespline"
 TIERS = [
     {"errors", "typing", "arrays", "units", "_kernels", "_version"},
     {
-        "contour", "knots", "curve", "parametrize", "footpoint", "cpda", "drawing", "reading",
-        "nesting",
+        "contour", "knots", "curve", "parametrize", "footpoint", "noise", "cpda", "drawing",
+        "reading", "nesting",
     },
     {
-        "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
+        "distance", "corners", "initial", "residuals", "solvers", "trace", "channels",
         "ordering", "chain_links", "centerline", "formats", "plot", "comparison", "polygons",
-        "joining", "exact", "scaling", "arcs",
+        "joining", "frame", "exact", "scaling", "arcs",
     },
-    {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
+    {
+        "verification", "optimization", "sections", "nodes", "removal", "balance", "estimation",
+        "placement",
+        "paper_figures",
+    },
     {"fitting"},
     {"reconstruction", "paper", "paper_report"},
     {"batch"},
     {"cli", "studio", "__main__"},
 ]  # fmt: skip
 TIER = {name: rank for rank, names in enumerate(TIERS) for name in names}
-GEOMETRY = TIERS[1] | {"distance", "corners", "noise", "initial", "residuals"}
+GEOMETRY = TIERS[1] | {"distance", "corners", "initial", "residuals"}
 
 SOURCES = sorted(path for path in PACKAGE.rglob("*.py"))
 

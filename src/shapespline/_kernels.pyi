@@ -100,6 +100,7 @@ def damped_step(
     damping: float,
     control_step: FloatArray,  # out (m, 2)
     parameter_step: FloatArray,  # out (n,)
+    along: FloatArray | None = None,  # (n,), parts of the residuals along the tangent that count
 ) -> tuple[bool, float, float, float]: ...  # solved, cost, predicted cost, gradient norm
 def corner_turns(
     points: FloatArray,  # (k, 2)
@@ -121,6 +122,8 @@ def fit_sections(
     least_corner: float,
     passes: int,
     widest: int,
+    observed: FloatArray | None = None,  # (n, 2): the sections are fitted to these in the end
+    noise: float = 0.0,
 ) -> tuple[
     list[int], list[int], list[float], list[float]
 ]: ...  # of each section: degree, number of points, knots and coordinates end to end

@@ -51,6 +51,8 @@ def balanced_start(
     degree: int,
     weights: FloatArray | None = None,
     rounds: int = ROUNDS,
+    *,
+    ends: str = "interpolated",
 ) -> Balanced:
     """The best of a few short fits, each balanced by the errors of the one before.
 
@@ -64,6 +66,8 @@ def balanced_start(
     weights : ndarray, shape (n,), optional
     rounds : int
         Times that the parameters are spread again.
+    ends : {"interpolated", "fitted"}
+        Of an open contour; see `CurveProblem`.
     """
     middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
     periodic = contour.closed
@@ -77,7 +81,7 @@ def balanced_start(
             contour.points - middle,
             BSplineCurve(knots, guess, degree, periodic),
             weights,
-            ends="free" if periodic else "interpolated",
+            ends="free" if periodic else ends,
             stray_weight=STRAY_WEIGHT,
         )
         control_points = problem.control_points_for(parameters, guess)

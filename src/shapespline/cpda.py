@@ -17,6 +17,7 @@ import numpy as np
 from shapespline import _kernels
 from shapespline.arrays import whole_number
 from shapespline.errors import InvalidInputError
+from shapespline.noise import noise_level
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,8 +29,6 @@ if TYPE_CHECKING:
 
 # Standard deviations of the noise of H that a maximum must rise above its surroundings.
 NOISE_SIGMAS = 4.0
-# Median of the absolute value of a standard normal variable.
-_NORMAL_MEDIAN = 0.6745
 
 
 class Cpda(NamedTuple):
@@ -104,20 +103,6 @@ def accumulate(contour: Contour, length: int) -> tuple[FloatArray, FloatArray]:
     signed, unsigned = np.empty(len(contour)), np.empty(len(contour))
     _kernels.accumulate_chord_distances(contour.points, steps, contour.closed, signed, unsigned)
     return signed, unsigned
-
-
-def noise_level(contour: Contour) -> float:
-    """Standard deviation of the noise of the points across the outline, data units.
-
-    The distance of a point from the chord of its neighbours, differenced once along the outline:
-    noise of deviation sigma makes it sqrt(5) sigma, a smooth outline only its change of curvature.
-    The median ignores corners.
-    """
-    if len(contour) < 8:
-        return 0.0
-    signed, _ = accumulate(contour, 2)
-    change = np.abs(np.diff(signed))
-    return float(np.median(change)) / (_NORMAL_MEDIAN * np.sqrt(5.0))
 
 
 def moving_average(values: FloatArray, window: int, *, closed: bool) -> FloatArray:

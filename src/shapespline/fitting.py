@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -11,28 +12,40 @@ import numpy as np
 from shapespline.arrays import float_array, is_number
 from shapespline.balance import STRAY_WEIGHT, balanced_start
 from shapespline.contour import Contour
-from shapespline.drawing import Fit, Status
 from shapespline.errors import (
     DegenerateContourError,
     InvalidInputError,
     ShuffledPointsWarning,
 )
-from shapespline.estimation import FINAL_LIMITS, chosen_count
+from shapespline.estimation import (
+    FARTHEST,
+    FINAL_LIMITS,
+    Evidence,
+    estimated_pieces,
+    resolution,
+    smooth_start,
+)
+from shapespline.frame import WorkingFrame, reversed_curve
+from shapespline.joining import joined
 from shapespline.knots import check_count, check_degree
 from shapespline.optimization import checked_weights, optimize
 from shapespline.ordering import looks_shuffled
+from shapespline.placement import dominant_start, uniform_start
 from shapespline.removal import fit_spline
 from shapespline.sections import fit_pieces
+from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
-    from shapespline.curve import BSplineCurve
-    from shapespline.distance import Distances
-    from shapespline.drawing import Piece
+    from shapespline.balance import Balanced
+    from shapespline.drawing import Fit
     from shapespline.optimization import Callback
     from shapespline.typing import ArrayLike
 
 Form = Literal["pieces", "spline"]
 Effort = Literal["fast", "balanced", "smallest"]
+Knots = Literal["balanced", "dominant", "uniform"]
+# What least squares of a given size starts from.
+STARTS = {"balanced": balanced_start, "dominant": dominant_start, "uniform": uniform_start}
 
 
 def fit_curve(
@@ -46,6 +59,7 @@ def fit_curve(
     form: Form = "pieces",
     effort: Effort = "balanced",
     weights: ArrayLike | None = None,
+    knots: Knots = "balanced",
     method: str = "levenberg-marquardt",
     callback: Callback | None = None,
 ) -> Fit:
@@ -53,8 +67,10 @@ def fit_curve(
 
     With a ``tolerance``: the fewest stored points that keep it, in both directions, as lines,
     Beziers and small splines or as one spline. With ``n_control_points``: one spline by least
-    squares, control points and parameters together. With neither, the same with a size that an
-    information criterion chooses, down to the noise or what the sampling can show.
+    squares, control points and parameters together. With neither the curve is estimated: clean
+    points give the smallest curve within what they can show, a twentieth to a tenth of a per cent
+    of the box diagonal or the accuracy of their source; noisy ones a least-squares curve whose size
+    a criterion chooses, in pieces with corners and straight runs where the points tell of them.
 
     Parameters
     ----------
@@ -70,14 +86,17 @@ def fit_curve(
     degree : int
         1 to 9.
     corners : "auto", "free", None or array_like of indices
-        With a tolerance: keep corners sharp and everything else tangent-continuous; round or make
+        Keep corners sharp and everything else tangent-continuous; round or make
         them where that is smaller; know none; or these points are the corners.
     form : {"pieces", "spline"}
-        With a tolerance: pieces between nodes, or one spline, smooth everywhere.
+        Pieces between nodes, or one spline, smooth everywhere.
     effort : {"fast", "balanced", "smallest"}
-        With a tolerance: how long to search.
+        How long to search.
     weights : array_like, shape (n,), optional
         One positive weight per point, for least squares.
+    knots : {"balanced", "dominant", "uniform"}
+        With a number of control points: spread until every span errs as much, or for comparison
+        at dominant points or equally spaced.
     method : str
         For least squares; see `optimize`.
     callback : callable, optional
@@ -113,16 +132,20 @@ def fit_curve(
             ShuffledPointsWarning,
             stacklevel=2,
         )
-    if len(contour) < degree + 1 and tolerance is None:
+    one_spline = n_control_points is not None or weights is not None
+    if len(contour) < degree + 1 and tolerance is None and one_spline:
         raise DegenerateContourError(
             f"points must hold at least degree + 1 = {degree + 1} distinct points for degree"
             f" {degree}, got {len(contour)}; add points or lower the degree"
         )
     _check_choice("form", form, get_args(Form))
     _check_choice("effort", effort, get_args(Effort))
+    _check_choice("knots", knots, get_args(Knots))
+    if knots != "balanced" and n_control_points is None:
+        raise InvalidInputError("knots act with n_control_points only: give a number of them")
     if tolerance is not None and n_control_points is not None:
         raise InvalidInputError("tolerance and n_control_points exclude each other: give one")
-    if tolerance is None:
+    if n_control_points is not None:
         for name, value, default in (
             ("corners", corners, "auto"),
             ("form", form, "pieces"),
@@ -130,25 +153,27 @@ def fit_curve(
         ):
             if not (isinstance(value, str) and value == default):
                 raise InvalidInputError(
-                    f"{name} acts with a tolerance only: give one, or leave it out"
+                    f"{name} does not act with n_control_points: leave one of them out"
                 )
-    elif weights is not None:
-        raise InvalidInputError("weights act in least squares only: leave out the tolerance")
     if tolerance is not None:
+        if weights is not None:
+            raise InvalidInputError("weights act in least squares only: leave out the tolerance")
         return _within(contour, tolerance_length(tolerance, contour), degree, corners, form, effort)
     summed = checked_weights(weights, contour)
     if n_control_points is None:
-        count = chosen_count(contour, degree, summed)
-    else:
-        count = check_count(n_control_points, degree)
-        if count > len(contour):
-            raise InvalidInputError(
-                f"n_control_points must be at most the number of distinct points, {len(contour)},"
-                f" got {count}; lower it"
-            )
+        if weights is None:
+            return _estimated(contour, degree, corners, form, effort, method, callback)
+        start = smooth_start(contour, degree, summed)
+        return _finished(contour, start, method, weights, callback)
+    count = check_count(n_control_points, degree)
+    if count > len(contour):
+        raise InvalidInputError(
+            f"n_control_points must be at most the number of distinct points, {len(contour)},"
+            f" got {count}; lower it"
+        )
     return optimize(
         contour,
-        balanced_start(contour, count, degree, summed),
+        STARTS[knots](contour, count, degree, summed),
         method,
         weights=weights,
         stray_weight=STRAY_WEIGHT,
@@ -208,20 +233,100 @@ def _within(
     if form == "spline":
         if not (corners is None or isinstance(corners, str)):
             raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
-        single = fit_spline(contour, tolerance, degree=degree, effort=effort)
-        return _fit(contour, single.curve, single.distances, tolerance, "removal")
+        return _single(contour, tolerance, degree, effort)
     pieces = fit_pieces(contour, tolerance, corners=corners, degree=degree, effort=effort)
-    fit = _fit(
-        contour, pieces.spline, pieces.distances, tolerance, "sections", sections=pieces.pieces
+    fit = verified_fit(
+        contour,
+        pieces.spline,
+        tolerance=tolerance,
+        method="sections",
+        sections=pieces.pieces,
+        distances=pieces.distances,
     )
-    may_be_smooth = corners is None or not len(pieces.corners)
+    straight = any(piece.kind == "line" for piece in pieces.pieces)
+    may_be_smooth = corners is None or not (len(pieces.corners) or straight)
     if not may_be_smooth and not (isinstance(corners, str) and corners == "free"):
         return fit
-    single = fit_spline(contour, tolerance, degree=degree, effort=effort)
-    smooth = _fit(contour, single.curve, single.distances, tolerance, "removal")
+    smooth = _single(contour, tolerance, degree, effort)
     # Of equals the single spline: it has no joints.
     better = smooth.kept >= fit.kept and smooth.n_stored_points <= fit.n_stored_points
     return smooth if better else fit
+
+
+def _single(contour: Contour, tolerance: float, degree: int, effort: Effort) -> Fit:
+    """The smallest single spline within a tolerance."""
+    found = fit_spline(contour, tolerance, degree=degree, effort=effort)
+    return verified_fit(
+        contour, found.curve, tolerance=tolerance, method="removal", distances=found.distances
+    )
+
+
+def _estimated(
+    contour: Contour,
+    degree: int,
+    corners: Literal["auto", "free"] | ArrayLike | None,
+    form: Form,
+    effort: Effort,
+    method: str,
+    callback: Callback | None,
+) -> Fit:
+    """A curve for points of which nothing else is known.
+
+    Clean points: the smallest curve within what they can show. Noisy ones: pieces, where they tell
+    as much of the points as one least-squares spline at the same price, or that spline. Points
+    that neither comes near are no noisy curve after all, and are treated as clean ones.
+    """
+    corners = _checked_corners(corners, len(contour))
+    frame = WorkingFrame.of(contour)
+    ordered = Contour.silently(
+        contour.points[frame.order], contour.closed, accuracy=contour.accuracy
+    )
+    shown = resolution(ordered)
+    if not shown.clean:
+        start = smooth_start(ordered, degree)
+        smooth = Evidence.of_spline(start, ordered, shown.noise)
+        if form == "pieces":
+            pieces, said = estimated_pieces(
+                contour, shown.noise, corners=corners, degree=degree, effort=effort
+            )
+            given = not isinstance(corners, str | None)
+            one_run = len(pieces) == 1 and pieces[0].kind != "line"
+            chosen = given or (said.preferred_to(smooth) and not one_run)
+            if chosen and said.farthest <= FARTHEST * shown.band:
+                spline = joined(pieces, degree)
+                return verified_fit(
+                    contour, spline, tolerance=None, method="estimation", sections=pieces
+                )
+        if smooth.farthest <= FARTHEST * shown.band:
+            fit = _finished(ordered, start, method, None, callback)
+            spline, parameters = fit.spline, fit.parameters[frame.place][contour.source]
+            if frame.reversed:
+                spline, parameters = reversed_curve(spline), 1.0 - parameters
+            return replace(fit, contour=contour, spline=spline, parameters=parameters)
+    fit = _within(contour, shown.band, degree, corners, form, effort)
+    return verified_fit(
+        contour, fit.spline, tolerance=None, method=fit.method, sections=fit.sections
+    )
+
+
+def _finished(
+    contour: Contour,
+    start: Balanced,
+    method: str,
+    weights: ArrayLike | None,
+    callback: Callback | None,
+) -> Fit:
+    """Least squares to the end from a start whose size was chosen, its ends free to leave noise."""
+    return optimize(
+        contour,
+        start,
+        method,
+        weights=weights,
+        ends=None if contour.closed else "fitted",
+        stray_weight=STRAY_WEIGHT,
+        limits=FINAL_LIMITS,
+        callback=callback,
+    )
 
 
 def _checked_corners(
@@ -236,37 +341,3 @@ def _checked_corners(
     if (given != np.floor(given)).any() or (given < 0).any() or (given >= n).any():
         raise InvalidInputError(message)
     return np.unique(given.astype(np.int64))
-
-
-def _fit(
-    contour: Contour,
-    spline: BSplineCurve,
-    distances: Distances,
-    tolerance: float,
-    method: str,
-    sections: tuple[Piece, ...] = (),
-) -> Fit:
-    """The Fit of a verified curve, with a status that is a true sentence."""
-    figures = (
-        f"data to curve {distances.max_distance:.6g},"
-        f" curve to data {distances.reverse_distance:.6g}"
-    )
-    if distances.hausdorff_distance <= tolerance:
-        status = Status.KEPT.saying(f"tolerance {tolerance:.6g} kept: {figures}")
-    else:
-        status = Status.EXCEEDED.saying(
-            f"tolerance {tolerance:.6g} not kept: {figures}; take a larger one"
-        )
-    return Fit(
-        spline=spline,
-        contour=contour,
-        parameters=distances.parameters[contour.source],
-        max_distance=distances.max_distance,
-        rms_distance=distances.rms_distance,
-        hausdorff_distance=distances.hausdorff_distance,
-        tolerance=tolerance,
-        status=status,
-        history=(),
-        method=method,
-        sections=sections,
-    )

@@ -1,4 +1,4 @@
-"""The noise of a contour, from what local cubics cannot follow."""
+"""The noise of a contour: what local cubics cannot follow across the outline."""
 
 from __future__ import annotations
 
@@ -11,34 +11,43 @@ if TYPE_CHECKING:
     from shapespline.contour import Contour
 
 # Points on each side of the middle of a local fit.
-HALF_WINDOW = 5
+HALF_WINDOW = 3
+# Of fewer points nobody can tell noise from bends.
+FEWEST_POINTS = 64
+# Median of a chi-squared variable with the 3 degrees of freedom that a cubic leaves of 7 points.
+_CHI_SQUARED_MEDIAN = 2.365974
 
 
 def noise_level(contour: Contour) -> float:
-    """Standard deviation of the noise in each coordinate, data units.
+    """Standard deviation of the points across the outline, data units.
 
-    A cubic is fitted to every 11 neighbours; the median over all windows of the root mean square
-    of what is left, so that corners, which no cubic follows, do not count. On clean data it is
-    the sampling's own roughness; 0 for fewer than 11 points.
+    A cubic in the index is fitted to every 7 neighbours; what is left of them is read across the
+    tangent of the cubic in the middle, so that uneven steps along the outline do not count. Under
+    normal noise the tangent and what is left are independent, and the square of what is left is
+    chi-squared: its median over all windows, which ignores corners, tells the deviation. Not less
+    than the accuracy that the contour is known to have; 0 for fewer than 64 points without one.
 
     Examples
     --------
     >>> from shapespline import Contour
-    >>> x = np.linspace(0, 10, 400)
-    >>> y = np.random.default_rng(1).normal(0, 0.1, 400)
-    >>> bool(0.06 < noise_level(Contour(np.column_stack([x, y]), closed=False)) < 0.08)
+    >>> points = np.column_stack([np.linspace(0, 10, 400), np.zeros(400)])
+    >>> points += np.random.default_rng(1).normal(0, 0.1, points.shape)
+    >>> bool(0.09 < noise_level(Contour(points, closed=False)) < 0.11)
     True
     """
+    known = contour.accuracy or 0.0
     width = 2 * HALF_WINDOW + 1
     points = contour.points - contour.points[0]
-    if len(points) < width:
-        return 0.0
+    if len(points) < FEWEST_POINTS:
+        return known
     if contour.closed:
         points = np.concatenate([points[-HALF_WINDOW:], points, points[:HALF_WINDOW]])
-    at = np.arange(-HALF_WINDOW, HALF_WINDOW + 1) / HALF_WINDOW
-    powers = np.vander(at, 4)
-    remainder = np.eye(width) - powers @ np.linalg.pinv(powers)
-    windows = sliding_window_view(points, width, axis=0).reshape(-1, width)
-    residuals = (windows @ remainder).reshape(-1, 2 * width)
-    sigmas = np.sqrt((residuals**2).sum(axis=1) / (width - powers.shape[1]) / 2)
-    return float(np.median(sigmas))
+    powers = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
+    fit = np.linalg.pinv(powers)
+    windows = sliding_window_view(points, width, axis=0)
+    tangents = windows @ fit[-2]
+    left = windows @ (np.eye(width) - powers @ fit)
+    across = left[:, 0] * tangents[:, 1, None] - left[:, 1] * tangents[:, 0, None]
+    speed_sq = np.maximum((tangents**2).sum(axis=1), np.finfo(float).tiny)
+    level_sq = float(np.median((across**2).sum(axis=1) / speed_sq)) / _CHI_SQUARED_MEDIAN
+    return max(known, float(np.sqrt(level_sq)))

@@ -13,25 +13,35 @@ import numpy as np
 from shapespline.arrays import float_array, is_number
 from shapespline.contour import Contour, checked_contour
 from shapespline.distance import two_sided_distance
-from shapespline.drawing import Fit, Iteration, Status
+from shapespline.drawing import Fit, Iteration
 from shapespline.errors import InvalidInputError
 from shapespline.footpoint import nondecreasing
 from shapespline.residuals import CurveProblem
-from shapespline.solvers.iteration import IterationRecord, Limits, Result, Solver, Stop, minimize
+from shapespline.solvers.alternation import Alternation
+from shapespline.solvers.fixed_parameters import FixedParameters
+from shapespline.solvers.iteration import IterationRecord, Limits, Solver, minimize
 from shapespline.solvers.levenberg_marquardt import LevenbergMarquardt
 from shapespline.solvers.quasi_newton import METHODS as QUASI_NEWTON
 from shapespline.solvers.quasi_newton import QuasiNewton, make_solver
+from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from shapespline.curve import BSplineCurve
-    from shapespline.distance import Distances
     from shapespline.typing import ArrayLike, FloatArray
 
     Callback = Callable[[Iteration], bool | None]
 
-METHODS = ("levenberg-marquardt", *QUASI_NEWTON)
+# Methods for comparison, beside the generalised BFGS family: foot points in turn with control
+# points, or parameters that stay.
+COMPARISONS: dict[str, Alternation | FixedParameters] = {
+    "pdm": Alternation("point"),
+    "tdm": Alternation("tangent"),
+    "sdm": Alternation("squared"),
+    "fixed-parameters": FixedParameters(),
+}
+METHODS = ("levenberg-marquardt", *QUASI_NEWTON, *COMPARISONS)
 # Enough for Levenberg-Marquardt to converge and for the quasi-Newton family to come near.
 DEFAULT_LIMITS = Limits(max_iterations=300, max_evaluations=2000, relative_decrease=1e-6)
 
@@ -73,8 +83,10 @@ def optimize(
     method : str or Solver
         ``"levenberg-marquardt"`` (parameters eliminated), ``"d-bfgs"``, ``"d-bfgs-ns"``,
         ``"d-bfgs-inverse"``, ``"d-bfgs-inverse-ns"``, ``"oss"``, ``"oss-ns"``, ``"bfgs"``,
-        ``"l-bfgs"``; or a solver from ``solvers.quasi_newton.make_solver``, which takes the start
-        diagonal, the Wolfe conditions and the memory.
+        ``"l-bfgs"``; for comparison ``"pdm"``, ``"tdm"``, ``"sdm"`` (point-, tangent- and
+        squared-distance minimisation) and ``"fixed-parameters"``; or a solver from
+        ``solvers.quasi_newton.make_solver``, which takes the start diagonal, the Wolfe conditions
+        and the memory.
     tolerance : float, optional
         Stop as soon as no residual is longer, data units; the promise is then checked both ways.
     weights : array_like, shape (n_given,), optional
@@ -98,7 +110,7 @@ def optimize(
 
     Examples
     --------
-    >>> from shapespline import Contour, initial_curve
+    >>> from shapespline import Contour, Status, initial_curve
     >>> t = np.linspace(0, 2 * np.pi, 240, endpoint=False)
     >>> r = 10 + 2 * np.cos(5 * t)
     >>> flower = Contour(np.column_stack([r * np.cos(t), r * np.sin(t)]), closed=True)
@@ -149,30 +161,26 @@ def optimize(
     if ends == "interpolated":  # to the bit, in spite of the way to the middle and back
         control_points[[0, -1]] = contour.points[[0, -1]]
     curve = type(fitted)(fitted.knots, control_points, fitted.degree, fitted.periodic)
-    found = two_sided_distance(curve, contour)
-    bound = found.hausdorff_distance
-    return Fit(
-        spline=curve,
-        contour=contour,
-        parameters=found.parameters[contour.source],
-        max_distance=found.max_distance,
-        rms_distance=found.rms_distance,
-        hausdorff_distance=bound,
-        tolerance=bound if tolerance is None else float(tolerance),
-        status=_status(result, found, tolerance),
-        history=tuple(iteration(record) for record in result.history),
+    return verified_fit(
+        contour,
+        curve,
+        tolerance=tolerance,
         method=name,
+        run=result,
+        history=tuple(iteration(record) for record in result.history),
     )
 
 
 def _solver(method: str | Solver[Any, Any]) -> tuple[Solver[Any, Any], str]:
     """The solver and its name."""
-    if isinstance(method, LevenbergMarquardt | QuasiNewton):
+    if isinstance(method, LevenbergMarquardt | QuasiNewton | Alternation | FixedParameters):
         return method, type(method).__name__
     if method not in METHODS:
         raise InvalidInputError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
     if method == "levenberg-marquardt":
         return LevenbergMarquardt(), method
+    if method in COMPARISONS:
+        return COMPARISONS[method], method
     return make_solver(method), method
 
 
@@ -226,23 +234,3 @@ def _stopping_at(limits: Limits, tolerance: float, problem: CurveProblem, closed
 
 def _rest(record: IterationRecord) -> tuple[float, int, float, float]:
     return record.gradient_norm, record.evaluations, record.step, record.seconds
-
-
-def _status(result: Result, found: Distances, tolerance: float | None) -> Status:
-    """What was reached, as a sentence with figures."""
-    figures = f"data to curve {found.max_distance:.6g}, curve to data {found.reverse_distance:.6g}"
-    steps = f"after {result.history[-1].iteration} iterations ({result.stop.value})"
-    if result.stop is Stop.CANCELLED:
-        return Status.CANCELLED.saying(f"cancelled by the callback {steps}: {figures}")
-    if tolerance is not None and found.hausdorff_distance <= tolerance:
-        return Status.KEPT.saying(f"tolerance {tolerance:.6g} kept, ended {steps}: {figures}")
-    if result.stop in (Stop.ITERATIONS, Stop.EVALUATIONS):
-        return Status.BUDGET.saying(
-            f"stopped {steps}: {figures}; go on from here with optimize(contour, fit)"
-        )
-    if tolerance is None:
-        return Status.KEPT.saying(f"no tolerance asked for, ended {steps}: {figures}")
-    return Status.EXCEEDED.saying(
-        f"tolerance {tolerance:.6g} not reached {steps}: {figures};"
-        " take more control points or a larger tolerance"
-    )

@@ -9,7 +9,7 @@ directions, and taken only if both are proven to keep the tolerance. The loops a
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import fsum, inf
+from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,15 +18,15 @@ from shapespline import _kernels
 from shapespline.curve import BSplineCurve
 from shapespline.distance import Distances, two_sided_distance
 from shapespline.errors import InvalidInputError
+from shapespline.frame import WorkingFrame
 from shapespline.knots import check_degree, periodic_knots
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from shapespline.contour import Contour
-    from shapespline.typing import FloatArray
 
-# The search works on data scaled to this box diagonal, which the gap limits refer to.
+# Box diagonal that the gap limits refer to.
 DIAGONAL = 100.0
 # Product rule: largest over smallest knot gap, slowest over median speed.
 GAP_RATIO, SPEED_RATIO = 1000.0, 0.05
@@ -131,14 +131,6 @@ class SplineResult:
         return self.distances.hausdorff_distance <= self.tolerance
 
 
-class _Frame(NamedTuple):
-    """Data as the search sees them: canonical order, centred, scaled."""
-
-    points: FloatArray
-    middle: FloatArray
-    scale: float
-
-
 def fit_spline(
     contour: Contour,
     tolerance: float,
@@ -177,7 +169,7 @@ def fit_spline(
     Notes
     -----
     The result does not depend on which point of a closed contour comes first or which way it runs:
-    the search begins at the point farthest from the middle of the box and runs counterclockwise.
+    it is searched in the order of `WorkingFrame`.
 
     References
     ----------
@@ -198,13 +190,12 @@ def fit_spline(
         raise InvalidInputError(f"effort must be one of {', '.join(LEVELS)}, got {effort!r}")
     if not (np.isfinite(tolerance) and tolerance > 0):
         raise InvalidInputError(f"tolerance must be a positive number, got {tolerance!r}")
-    frame = _frame(contour)
+    frame = WorkingFrame.of(contour)
     results: list[SplineResult] = []
     part, from_polyline = 1.0, False
     for _ in range(ATTEMPTS):
         search, cancelled = _search(
             frame,
-            contour.closed,
             part * tolerance,
             degree,
             LEVELS[effort],
@@ -212,7 +203,7 @@ def fit_spline(
             from_polyline,
             callback,
         )
-        curve = _exported(search, frame, contour.closed, degree)
+        curve = _exported(search, frame, degree)
         result = SplineResult(
             curve,
             tolerance,
@@ -239,8 +230,7 @@ def _badness(result: SplineResult, product_rule: bool) -> tuple[bool, bool, floa
 
 
 def _search(
-    frame: _Frame,
-    closed: bool,
+    frame: WorkingFrame,
     tolerance: float,
     degree: int,
     level: _Level,
@@ -250,11 +240,15 @@ def _search(
 ) -> tuple[_kernels.RemovalSearch, bool]:
     """The stages of one search; also whether the callback ended it."""
     scaled = tolerance * frame.scale
-    least = min(max(LEAST_GAP_TOLERANCES * scaled, LEAST_GAP[0]), LEAST_GAP[1])
-    least_gap, largest_gap = (least, GAP_RATIO * least) if product_rule else FREE_GAPS
+    unit = frame.contour.box_diagonal / DIAGONAL
+    low, high = (unit * gap for gap in LEAST_GAP)
+    least = min(max(LEAST_GAP_TOLERANCES * scaled, low), high)
+    least_gap, largest_gap = (
+        (least, GAP_RATIO * least) if product_rule else (unit * gap for gap in FREE_GAPS)
+    )
     search = _kernels.RemovalSearch(
-        frame.points,
-        closed,
+        frame.contour.points,
+        frame.contour.closed,
         degree,
         scaled,
         product_rule,
@@ -280,42 +274,22 @@ def _search(
     return search, False
 
 
-def _frame(contour: Contour) -> _Frame:
-    """Data in canonical order about the middle of their box, scaled to the diagonal."""
-    points = contour.points
-    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    scale = DIAGONAL / contour.box_diagonal
-    centred = (points - middle) * scale
-    if contour.closed:
-        # The farthest point from the middle comes first, ties broken by coordinates.
-        radius = centred[:, 0] ** 2 + centred[:, 1] ** 2
-        first = int(np.lexsort((centred[:, 1], centred[:, 0], radius))[-1])
-        centred = np.roll(centred, -first, axis=0)
-        ahead = np.roll(centred, -1, axis=0)
-        # Summed exactly, so that the reversed outline gives the exact opposite.
-        area = fsum(centred[:, 0] * ahead[:, 1]) - fsum(centred[:, 1] * ahead[:, 0])
-        if area < 0 or (area == 0 and tuple(centred[1]) < tuple(centred[-1])):
-            centred = np.roll(centred[::-1], 1, axis=0)
-    return _Frame(np.ascontiguousarray(centred), middle, scale)
-
-
-def _exported(
-    search: _kernels.RemovalSearch, frame: _Frame, closed: bool, degree: int
-) -> BSplineCurve:
+def _exported(search: _kernels.RemovalSearch, frame: WorkingFrame, degree: int) -> BSplineCurve:
     """The curve over [0, 1] in data units; the seam of a periodic one is a simple knot."""
     gap_list, coordinates = search.curve()
     gaps = np.array(gap_list)
-    points = np.array(coordinates).reshape(-1, 2) / frame.scale + frame.middle
-    if not closed:
+    points = np.array(coordinates).reshape(-1, 2)
+    if not frame.contour.closed:
         knots = np.concatenate([[0.0], np.cumsum(gaps)])
         knots /= knots[-1]
         knots[len(points) :] = 1.0  # rounding
-        return BSplineCurve(knots, points, degree)
+        return frame.restored_curve(BSplineCurve(knots, points, degree))
     simple = (gaps > 0) & (np.roll(gaps, 1) > 0)
     seam = int(np.argmax(simple)) if simple.any() else int(np.argmax(gaps > 0))
     period = np.concatenate([[0.0], np.cumsum(np.roll(gaps, -seam))])
     knots = periodic_knots(len(points), degree, period / period[-1])
-    return BSplineCurve(knots, np.roll(points, degree - seam, axis=0), degree, periodic=True)
+    points = np.roll(points, degree - seam, axis=0)
+    return frame.restored_curve(BSplineCurve(knots, points, degree, periodic=True))
 
 
 def rule_report(curve: BSplineCurve, contour: Contour) -> RuleReport:

@@ -19,11 +19,14 @@ from shapespline.footpoint import nondecreasing
 from shapespline.solvers.levenberg_marquardt import Proposal
 
 if TYPE_CHECKING:
+    from shapespline.solvers.alternation import Metric
     from shapespline.typing import FloatArray
 
 # Entries of the Gauss-Newton diagonal below this part of the largest are raised to it.
 DIAGONAL_FLOOR = 1e-12
 ENDS = ("interpolated", "fitted", "free")
+# Newton steps of a foot point between two steps of the control points.
+_FOOT_STEPS = 3
 # The kernel's names for which parameters stay.
 _HOLD_ENDS, _HOLD_ALL = 1, 2
 
@@ -172,6 +175,78 @@ class CurveProblem:
             np.clip(trial, parameters[0], parameters[-1], out=trial)
         trial[:] = nondecreasing(trial, end - begin if self.template.periodic else None)
         return Proposal(step, cost - predicted, gradient_norm)
+
+    def metric_step(self, x: FloatArray, metric: Metric, damping: float) -> Proposal | None:
+        """Control points that a quadratic stand-in for the squared distances asks for.
+
+        The parameters stay: `projected` finds them. None if the system has no solution.
+        """
+        control_points, parameters = self.unpack(x)
+        step = np.zeros_like(x)
+        solved, cost, predicted, gradient_norm = _kernels.damped_step(
+            *self._knots,
+            control_points,
+            self.points,
+            parameters,
+            self.weights,
+            *self._fixed,
+            self.stray_weight,
+            damping,
+            *self.unpack(step),
+            self._along(x, metric),
+        )
+        if not solved:
+            return None
+        step[self._split :] = 0.0
+        step += x
+        return Proposal(step, cost - predicted, gradient_norm)
+
+    def _along(self, x: FloatArray, metric: Metric) -> FloatArray:
+        """Part of each squared residual along the tangent that a metric counts, shape (n,).
+
+        All of it for the point distance, none for the tangent distance; for the squared distance
+        d / (d + rho) where the point lies on the outer side of the curve, d away from it and with
+        radius of curvature rho there, and none on the inner side (Wang et al., Eq. 16).
+        """
+        parameters = self.unpack(x)[1]
+        if metric != "squared":
+            return np.full(len(parameters), 1.0 if metric == "point" else 0.0)
+        curve = self.curve(x)
+        away = self.points - curve(parameters)
+        velocity, acceleration = curve(parameters, derivative=1), curve(parameters, derivative=2)
+        bend = velocity[:, 0] * acceleration[:, 1] - velocity[:, 1] * acceleration[:, 0]
+        side = velocity[:, 0] * away[:, 1] - velocity[:, 1] * away[:, 0]
+        speed = np.hypot(velocity[:, 0], velocity[:, 1])
+        # d / rho = |away| |bend| / speed^3; side * bend < 0 on the outer side.
+        ratio = np.hypot(away[:, 0], away[:, 1]) * np.abs(bend)
+        total = ratio + speed**3
+        outer = (side * bend < 0.0) & (total > 0.0)
+        return np.divide(ratio, total, out=np.zeros_like(ratio), where=outer)
+
+    def projected(self, x: FloatArray) -> FloatArray:
+        """The vector with every parameter moved to a foot point near it; no residual grows."""
+        curve, moved = self.curve(x), x.copy()
+        parameters = moved[self._split :]
+        begin, end = self.template.domain
+        best = ((curve(parameters) - self.points) ** 2).sum(axis=1)
+        for _ in range(_FOOT_STEPS):
+            residuals = curve(parameters) - self.points
+            tangents = curve(parameters, derivative=1)
+            bends = curve(parameters, derivative=2)
+            speed_sq = (tangents**2).sum(axis=1)
+            newton = speed_sq + (residuals * bends).sum(axis=1)
+            hessian = np.where(newton > 0.3 * speed_sq, newton, speed_sq)
+            slope = (residuals * tangents).sum(axis=1)
+            step = np.divide(-slope, hessian, out=np.zeros_like(slope), where=hessian > 0)
+            trial = parameters + step
+            if not self.template.periodic:
+                trial = np.clip(trial, begin, end)
+            if self.ends != "free":
+                trial[0], trial[-1] = parameters[0], parameters[-1]
+            distances_sq = ((curve(trial) - self.points) ** 2).sum(axis=1)
+            nearer = distances_sq < best
+            parameters[nearer], best[nearer] = trial[nearer], distances_sq[nearer]
+        return moved
 
     def control_points_for(self, parameters: FloatArray, guess: FloatArray) -> FloatArray:
         """Least-squares control points with the parameters held, shape (m, 2).

@@ -10,24 +10,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import pairwise
-from math import frexp, ldexp
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.contour import Contour
 from shapespline.corners import LEAST_TURN, find_corners
 from shapespline.distance import Distances, two_sided_distance
 from shapespline.drawing import Piece
 from shapespline.errors import InvalidInputError
-from shapespline.joining import backwards, joined, turn_between
+from shapespline.frame import WorkingFrame
+from shapespline.joining import joined, turn_between
 from shapespline.knots import check_degree
 from shapespline.nodes import aligned
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from shapespline.contour import Contour
     from shapespline.curve import BSplineCurve
     from shapespline.typing import ArrayLike, FloatArray, IntArray
 
@@ -44,6 +44,8 @@ RELEASE = 0.7
 # Control points may move by this part of the tolerance to make a tangent exact: it is less than
 # what the first aim leaves.
 LARGEST_MOVE = 0.002
+# The same for a fit to noisy points, in standard deviations of the noise.
+OBSERVED_MOVE = 0.1
 # A node that turns more is a corner of the result, radians.
 SHARP_TURN = np.radians(1.01)
 # Sections are at most cubic; higher degrees are made by elevation.
@@ -160,6 +162,7 @@ def fit_pieces(
 
     Examples
     --------
+    >>> from shapespline import Contour
     >>> side = np.linspace(0, 1, 20, endpoint=False)
     >>> x = np.concatenate([side, 1 + 0 * side, 1 - side, 0 * side])
     >>> square = Contour(np.column_stack([x, np.roll(x, 20)]), closed=True)
@@ -196,67 +199,38 @@ def fit_pieces(
     return min((result, *others), key=lambda found: (not found.kept, found.n_stored_points))
 
 
-class WorkingFrame(NamedTuple):
-    """A contour in the order and the unit in which it is fitted.
+def fit_observed(
+    outline: Contour,
+    observed: FloatArray,
+    tolerance: float,
+    noise: float,
+    *,
+    corners: IntArray | None,
+    degree: int = 3,
+    effort: Effort = "balanced",
+) -> tuple[Piece, ...]:
+    """Pieces that follow a smoothed outline within a tolerance, then fitted to what was observed.
 
-    ``contour`` has its middle at the origin, a box diagonal between 64 and 128 (the scale is a
-    power of two, exact), and an order that does not depend on where the data begin and which way
-    they run. ``order`` (n,) are the indices of its points in the data.
+    Parameters
+    ----------
+    outline : Contour
+        The smoothed outline, in the order and unit of a `WorkingFrame`.
+    observed : ndarray, shape (n, 2)
+        The noisy points, index for index.
+    tolerance : float
+        Between outline and pieces, before these are fitted to the points by least squares.
+    noise : float
+        Standard deviation of the points.
+    corners : ndarray or None
+        Indices of the corners that are kept; None lets the fit make and round them.
+    degree, effort
+        See `fit_pieces`.
     """
-
-    contour: Contour
-    order: IntArray
-    middle: FloatArray
-    scale: float
-    reversed: bool
-
-    @classmethod
-    def of(cls, contour: Contour) -> WorkingFrame:
-        """The frame of a contour."""
-        points = contour.points
-        order, backwards = _canonical_order(points, closed=contour.closed)
-        scale = ldexp(1.0, 7 - frexp(contour.box_diagonal)[1])
-        middle = points.min(axis=0) + 0.5 * np.ptp(points, axis=0)
-        moved = (points[order] - middle) * scale
-        if (moved == np.roll(moved, -1, axis=0)).all(axis=1).any():
-            # Neighbours so close that they fall together far from the origin: leave the origin.
-            middle = np.zeros(2)
-            moved = points[order] * scale
-        return cls(Contour(moved, contour.closed), order, middle, scale, backwards)
-
-    def restored(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
-        """Pieces in the unit of the data, running the way the data run."""
-        pieces = tuple(
-            piece._replace(control_points=piece.control_points / self.scale + self.middle)
-            for piece in pieces
-        )
-        return backwards(pieces) if self.reversed else pieces
-
-
-def _canonical_order(points: FloatArray, *, closed: bool) -> tuple[IntArray, bool]:
-    """Indices in an order that depends on the geometry only, and whether it runs backwards.
-
-    Closed outlines start at the point with the least x, then y, and go on to the lesser of its
-    neighbours; open ones start at the lesser end.
-    """
-    n = len(points)
-    index = np.arange(n)
-    if not closed:
-        ends = [points[0].tolist(), points[-1].tolist()]
-        if ends[0] == ends[1]:
-            ends = [points[1].tolist(), points[-2].tolist()]
-        backwards = ends[1] < ends[0]
-        return (index[::-1] if backwards else index), backwards
-    least = np.lexsort((points[:, 1], points[:, 0]))[0]
-    ties = np.flatnonzero((points == points[least]).all(axis=1))
-
-    def neighbours(i: int) -> list[list[float]]:
-        return [points[(i + 1) % n].tolist(), points[i - 1].tolist()]
-
-    start = min((int(i) for i in ties), key=lambda i: sorted(neighbours(i)))
-    after, before = neighbours(start)
-    backwards = before < after
-    return (start + (-index if backwards else index)) % n, backwards
+    kept = np.empty(0, dtype=np.int64) if corners is None else corners
+    faithful = corners is not None
+    task = _Task(outline, min(degree, SECTION_DEGREE), faithful, faithful, kept)
+    runs = [task.run(tolerance, search, observed, noise) for search in SEARCHES[effort]]
+    return min(runs, key=lambda pieces: sum(len(p.control_points) - 1 for p in pieces))
 
 
 def _chosen_corners(
@@ -277,9 +251,7 @@ def _chosen_corners(
         raise InvalidInputError(f"corners must be one list of whole numbers, got {corners!r}")
     if given.size and (given.min() < 0 or given.max() >= n):
         raise InvalidInputError(f"corners must be indices below {n}, got {given.tolist()}")
-    place = np.empty(n, dtype=np.int64)
-    place[frame.order] = np.arange(n)
-    return np.unique(place[given.astype(np.int64)])
+    return np.unique(frame.place[given.astype(np.int64)])
 
 
 class _Task(NamedTuple):
@@ -295,8 +267,14 @@ class _Task(NamedTuple):
     smooth: bool
     corners: IntArray
 
-    def run(self, tolerance: float, search: Search) -> tuple[Piece, ...]:
-        """One run of the kernel."""
+    def run(
+        self,
+        tolerance: float,
+        search: Search,
+        observed: FloatArray | None = None,
+        noise: float = 0.0,
+    ) -> tuple[Piece, ...]:
+        """One run of the kernel; in the end a least-squares fit to what was observed."""
         n = len(self.contour)
         marked = np.zeros(n, dtype=np.int64)
         marked[self.corners] = 1
@@ -313,11 +291,14 @@ class _Task(NamedTuple):
             RELEASE * LEAST_TURN,
             search.passes,
             search.widest,
+            observed,
+            noise,
         )
         pieces = _unpacked(degrees, counts, np.array(knots), np.array(coordinates))
         if not self.smooth:
             return pieces
-        return aligned(pieces, LARGEST_MOVE * tolerance, closed=self.contour.closed)
+        largest_move = LARGEST_MOVE * tolerance if observed is None else OBSERVED_MOVE * noise
+        return aligned(pieces, largest_move, closed=self.contour.closed)
 
 
 def _through_all(contour: Contour) -> tuple[Piece, ...]:

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "shapespline/bspline.hpp"
 #include "shapespline/envelope.hpp"
+#include "shapespline/span_cursor.hpp"
 
 namespace shapespline {
 
@@ -28,6 +30,9 @@ struct Samples {
     Held held = Held::none;
     bool control_ends_fixed = false;  // the first and last control point do not move
     double stray_weight = 0.0;        // of the stray residuals; 0 for the plain problem
+    // The part in [0, 1] of each squared residual along the tangent that a step counts, where the
+    // parameters are found by projection and not by the step; null where they are eliminated.
+    const double *along = nullptr;
 
     std::size_t size() const { return points.size(); }
     double weight(std::size_t j) const { return weights ? weights[j] : 1.0; }
@@ -200,8 +205,11 @@ inline EnvelopeMatrix normal_matrix(std::size_t n_points, int degree, bool perio
 template <int Degree>
 class LocalSystem {
   public:
+    void enter(const CurveCursor<Degree> &) {}
+
     // Adds N N' (x) W and -N (x) W r for W = w (I - inv_h t t').
-    void add(const std::array<double, Degree + 1> &basis, Vec2 r, Vec2 t, double w, double inv_h) {
+    void add(const CurveCursor<Degree> &cursor, Vec2 r, Vec2 t, double w, double inv_h) {
+        const std::array<double, Degree + 1> &basis = cursor.basis();
         const double wxx = w * (1.0 - t.x * t.x * inv_h), wxy = -w * t.x * t.y * inv_h,
                      wyy = w * (1.0 - t.y * t.y * inv_h);
         const Vec2 pull{wxx * r.x + wxy * r.y, wxy * r.x + wyy * r.y};
@@ -259,7 +267,8 @@ struct StepResult {
 // Levenberg-Marquardt step with the parameters eliminated: with h_j = |T_j|^2 (1 + lambda) and
 // W_j = I - T_j T_j' / h_j,
 //     (sum w N N' (x) W + lambda D) dP = -sum w N (x) W r,   dt_j = -T_j . (r_j + dC_j) / h_j.
-// D is the diagonal of the matrix plus 1e-11 of its largest entry.
+// D is the diagonal of the matrix plus 1e-11 of its largest entry. With parts c_j of the residuals
+// along the tangent to be counted, W_j = I - (1 - c_j) T_j T_j' / |T_j|^2 instead.
 inline StepResult damped_step(const Knots &knots, std::span<const Vec2> control_points,
                               const Samples &samples, double damping,
                               std::span<Vec2> control_step, double *parameter_step) {
@@ -277,33 +286,38 @@ inline StepResult damped_step(const Knots &knots, std::span<const Vec2> control_
     const auto inverse_h = [&](std::size_t j, Vec2 tangent) {
         const double speed_sq = norm_sq(tangent);
         if (samples.is_held(j) || speed_sq == 0.0) return 0.0;
+        if (samples.along) return (1.0 - samples.along[j]) / std::max(speed_sq, speed_floor);
         return 1.0 / (std::max(speed_sq, speed_floor) * (1.0 + damping));
     };
 
     dispatch_degree(knots.degree, [&]<int Degree>() {
-        CurveCursor<Degree> cursor(knots, unrolled);
-        LocalSystem<Degree> local;
-        std::size_t first = 0;
+        constexpr bool kMoments = Degree <= kMomentDegree;
+        std::conditional_t<kMoments, SpanCursor<Degree>, CurveCursor<Degree>> cursor(knots,
+                                                                                     unrolled);
+        std::conditional_t<kMoments, LocalMoments<Degree>, LocalSystem<Degree>> local;
+        cursor.seek(samples.parameters[0]);
+        std::size_t first = cursor.first_index();
+        local.enter(cursor);
+        const auto follow = [&] {
+            if (cursor.first_index() == first) return;
+            local.flush(first, matrix, rhs);
+            first = cursor.first_index();
+            local.enter(cursor);
+        };
         for (std::size_t j = 0; j < samples.size(); ++j) {
             cursor.seek(samples.parameters[j]);
-            if (cursor.first_index() != first) {
-                local.flush(first, matrix, rhs);
-                first = cursor.first_index();
-            }
+            follow();
             const Vec2 r = cursor.point() - samples.points[j];
             const Vec2 t = cursor.tangent();
             const double w = samples.weight(j);
-            local.add(cursor.basis(), r, t, w, inverse_h(j, t));
+            local.add(cursor, r, t, w, inverse_h(j, t));
             result.cost += 0.5 * w * norm_sq(r);
         }
         for_each_stray(knots, samples, [&](const Stray &stray) {
             cursor.seek(stray.parameter);
-            if (cursor.first_index() != first) {
-                local.flush(first, matrix, rhs);
-                first = cursor.first_index();
-            }
+            follow();
             const Vec2 r = cursor.point() - stray.target;
-            local.add(cursor.basis(), r, Vec2{}, stray.weight, 0.0);
+            local.add(cursor, r, Vec2{}, stray.weight, 0.0);
             result.cost += 0.5 * stray.weight * norm_sq(r);
         });
         local.flush(first, matrix, rhs);
@@ -330,23 +344,24 @@ inline StepResult damped_step(const Knots &knots, std::span<const Vec2> control_
     matrix.solve(rhs);
     for (std::size_t i = 0; i < m; ++i) control_step[i] = {rhs[2 * i], rhs[2 * i + 1]};
 
-    const std::vector<Vec2> step = unroll(control_step, unrolled.size());
+    std::vector<Vec2> moved = unroll(control_step, unrolled.size());
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += unrolled[i];
     dispatch_degree(knots.degree, [&]<int Degree>() {
-        CurveCursor<Degree> cursor(knots, unrolled);
+        using Cursor = std::conditional_t<Degree <= kMomentDegree, SpanCursor<Degree>,
+                                          CurveCursor<Degree>>;
+        Cursor cursor(knots, unrolled), next(knots, moved);
         for (std::size_t j = 0; j < samples.size(); ++j) {
             cursor.seek(samples.parameters[j]);
+            next.seek(samples.parameters[j]);
             const Vec2 t = cursor.tangent();
-            const Vec2 moved = cursor.point() - samples.points[j] +
-                               cursor.combine(step.data(), cursor.basis());
-            parameter_step[j] = -dot(t, moved) * inverse_h(j, t);
+            const Vec2 residual = next.point() - samples.points[j];
+            parameter_step[j] = -dot(t, residual) * inverse_h(j, t);
             result.predicted_cost +=
-                0.5 * samples.weight(j) * norm_sq(moved + parameter_step[j] * t);
+                0.5 * samples.weight(j) * norm_sq(residual + parameter_step[j] * t);
         }
         for_each_stray(knots, samples, [&](const Stray &stray) {
-            cursor.seek(stray.parameter);
-            const Vec2 moved =
-                cursor.point() - stray.target + cursor.combine(step.data(), cursor.basis());
-            result.predicted_cost += 0.5 * stray.weight * norm_sq(moved);
+            next.seek(stray.parameter);
+            result.predicted_cost += 0.5 * stray.weight * norm_sq(next.point() - stray.target);
         });
     });
     return result;

@@ -91,8 +91,8 @@ def fit(
         typer.Option(
             "--control-points",
             "-n",
-            help="Control points of each curve (default without a tolerance: as many as pay by"
-            " an information criterion).",
+            help="Control points of each curve (default without a tolerance: found from the"
+            " noise of the points or from what they can show).",
         ),
     ] = None,
     degree: options.Degree = 3,

@@ -1,0 +1,178 @@
+"""Without a tolerance: distance to the truth, beside scipy; the noise that is found.
+
+    python -m benchmarks.estimation               the loop over ten seeds, and ten outlines
+    python -m benchmarks.estimation --every 3     every third outline whose truth is known
+
+The truth is the clean outline; noise of so many per cent of the box diagonal, which is 100, is
+added to each coordinate. splprep is given the noise and the best of its smoothing factors in
+hindsight; make_smoothing_spline chooses by generalised cross-validation, on chord lengths.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+import warnings
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy.interpolate import BSpline, make_smoothing_spline, splprep
+
+import shapespline as ss
+from benchmarks.outside_metric import distance_to_curve
+from benchmarks.quality import LARGE, own_corpus
+from shapespline.noise import noise_level
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+PERCENTS = (0.2, 1.0)
+SEEDS = range(10)
+LOOP = "loop500_open"
+# splprep's s over what the noise alone leaves.
+FACTORS = np.linspace(0.5, 1.5, 11)
+TRUTH_POINTS = 1500
+LONGEST = 2500
+
+
+class Found(NamedTuple):
+    """Root mean square distance from the truth to a curve, and the points that it stores."""
+
+    rms: float
+    n_points: float
+
+
+def scaled(contour: ss.Contour) -> ss.Contour:
+    """The contour with a box diagonal of 100."""
+    return ss.Contour(contour.points * (100 / contour.box_diagonal), closed=contour.closed)
+
+
+def shaken(contour: ss.Contour, percent: float, seed: int) -> ss.Contour:
+    """The contour with noise in each coordinate."""
+    noise = np.random.default_rng(seed).normal(0.0, percent, contour.points.shape)
+    return ss.Contour(contour.points + noise, closed=contour.closed)
+
+
+def rms_to(truth: ss.Contour, curve: BSpline | Callable[[np.ndarray], np.ndarray]) -> float:
+    """Root mean square distance of dense points of the truth from a curve."""
+    off = distance_to_curve(truth.resampled(TRUTH_POINTS).points, curve, 0.05)
+    return float(np.sqrt((off**2).mean()))
+
+
+def ours(truth: ss.Contour, noisy: ss.Contour) -> Found:
+    """fit_curve without any parameter."""
+    fit = ss.fit_curve(noisy)
+    return Found(rms_to(truth, fit.curve), fit.n_stored_points)
+
+
+def splprep_in_hindsight(truth: ss.Contour, noisy: ss.Contour, percent: float) -> Found:
+    """The best that splprep does with a known noise and any factor."""
+    found = []
+    for factor in FACTORS:
+        s = 2 * len(noisy) * percent**2 * factor
+        (knots, coefficients, degree), _ = splprep(noisy.polyline.T, s=s, per=noisy.closed)
+        curve = BSpline(knots, np.transpose(coefficients), degree)
+        n_points = len(knots) - degree - 1 - (degree if noisy.closed else 0)
+        found.append(Found(rms_to(truth, curve), n_points))
+    return min(found)
+
+
+def cross_validated(truth: ss.Contour, noisy: ss.Contour) -> Found:
+    """make_smoothing_spline of both coordinates over chord length."""
+    track, u = noisy.polyline, noisy.arc_length / noisy.length
+    x, y = (make_smoothing_spline(u, track[:, axis]) for axis in (0, 1))
+    both = BSpline(x.t, np.column_stack([x.c, y.c]), x.k)
+    return Found(rms_to(truth, both), len(x.t) - 4)
+
+
+def loop() -> None:
+    """The outline whose goals are known, over ten seeds."""
+    print("## loop500, medians of ten seeds (to reach: 0.05 and 0.24 with at most 35 points)\n")
+    print("| noise | rms | points | ms | splprep in hindsight | points | cross-validated |")
+    print("|---|---|---|---|---|---|---|")
+    truth = scaled(next(o.contour for o in own_corpus() if o.name == LOOP))
+    for percent in PERCENTS:
+        rows, seconds = [], []
+        for seed in SEEDS:
+            noisy = shaken(truth, percent, seed)
+            began = time.perf_counter()
+            own = ours(truth, noisy)
+            seconds.append(time.perf_counter() - began)
+            peer = splprep_in_hindsight(truth, noisy, percent)
+            rows.append((*own, *peer, cross_validated(truth, noisy).rms))
+        m = np.median(rows, axis=0)
+        print(
+            f"| {percent} % | {m[0]:.4f} | {m[1]:.0f} | {1e3 * np.median(seconds):.0f}"
+            f" | {m[2]:.4f} | {m[3]:.0f} | {m[4]:.4f} |"
+        )
+    print()
+
+
+def known_truths(every: int | None) -> list[tuple[str, ss.Contour]]:
+    """Outlines of the own corpus and, where they are, of the larger one."""
+    chosen = [(o.name, o.contour) for o in own_corpus() if "_n" not in o.name]
+    for path in sorted((LARGE / "truth_curves").glob("*_c[0-9].csv")):
+        contour = ss.Contour(np.loadtxt(path, delimiter=","))
+        if contour.length > 0.5 * contour.box_diagonal:
+            chosen.append((path.stem, contour))
+    chosen = [one for one in chosen if len(one[1]) <= LONGEST]
+    return chosen[:: every or max(1, len(chosen) // 10)]
+
+
+def corpus(every: int | None) -> None:
+    """Every chosen outline at every noise."""
+    print("## Outlines with known truth: rms to it (points stored)\n")
+    print("| outline | noise | estimate | splprep in hindsight | cross-validated | noise found |")
+    print("|---|---|---|---|---|---|")
+    ratios = []
+    for name, contour in known_truths(every):
+        truth = scaled(contour)
+        for percent in PERCENTS:
+            noisy = shaken(truth, percent, 0)
+            own, peer = ours(truth, noisy), splprep_in_hindsight(truth, noisy, percent)
+            validated = cross_validated(truth, noisy)
+            ratios.append((own.rms / peer.rms, own.rms / validated.rms, own[1] / peer[1]))
+            print(
+                f"| {name} | {percent} % | {own.rms:.3f} ({own.n_points:.0f})"
+                f" | {peer.rms:.3f} ({peer.n_points:.0f}) | {validated.rms:.3f}"
+                f" | {noise_level(noisy) / percent:.2f} |",
+                flush=True,
+            )
+    mean = np.exp(np.log(ratios).mean(axis=0))
+    print(
+        f"\ngeometric means: rms over splprep's {mean[0]:.2f}, over the cross-validated one's"
+        f" {mean[1]:.2f}; points over splprep's {mean[2]:.2f}\n"
+    )
+
+
+def noise() -> None:
+    """What is found of the noise over the own corpus."""
+    print("## Noise found over noise added, own corpus (to reach: within 20 %)\n")
+    print("| noise | median | least | most | within 20 % |\n|---|---|---|---|---|")
+    clean = [scaled(o.contour) for o in own_corpus() if "_n" not in o.name]
+    for percent in PERCENTS:
+        found = np.array(
+            [noise_level(shaken(c, percent, i)) / percent for i, c in enumerate(clean)]
+        )
+        within = np.abs(found - 1) < 0.2
+        print(
+            f"| {percent} % | {np.median(found):.3f} | {found.min():.3f} | {found.max():.3f}"
+            f" | {within.mean():.1%} |"
+        )
+    steps = [noise_level(c) / float(np.median(np.diff(c.arc_length))) for c in clean]
+    print(f"\nclean: at most {max(steps):.4f} of the distance between points\n")
+
+
+def main() -> None:
+    """Print every section."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--every", type=int, help="each so many-th outline; ten in all")
+    chosen = parser.parse_args()
+    warnings.simplefilter("ignore")
+    noise()
+    loop()
+    corpus(chosen.every)
+
+
+if __name__ == "__main__":
+    main()
