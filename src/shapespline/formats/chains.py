@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.formats.outlines import closed_up, size_of
+from shapespline.formats.pieces import closed_up, size_of
 from shapespline.joining import backwards
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def chained(runs: Sequence[Sequence[Piece]]) -> list[list[Piece]]:
 
     Examples
     --------
-    >>> from shapespline.formats.outlines import bezier
+    >>> from shapespline.formats.pieces import bezier
     >>> sides = [[bezier([(0, 0), (4, 0)])], [bezier([(0, 3), (0, 0)])], [bezier([(4, 0), (0, 3)])]]
     >>> [len(outline) for outline in chained(sides)]
     [3]

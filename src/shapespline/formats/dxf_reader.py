@@ -13,7 +13,7 @@ from shapespline.errors import FormatError, SkippedContentWarning
 from shapespline.exact import Outlines
 from shapespline.formats.chains import chained
 from shapespline.formats.elliptic import elliptical_arc
-from shapespline.formats.outlines import bezier, size_of
+from shapespline.formats.pieces import bezier, size_of
 from shapespline.formats.splines import spline_pieces
 
 if TYPE_CHECKING:

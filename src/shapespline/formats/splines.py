@@ -15,7 +15,7 @@ from shapespline.curve import BSplineCurve, clamped_ends
 from shapespline.drawing import Piece
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats.cubics import halves
-from shapespline.formats.outlines import bezier
+from shapespline.formats.pieces import bezier
 from shapespline.knots import check_degree
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ import numpy as np
 from shapespline.errors import FormatError, SkippedContentWarning
 from shapespline.exact import Outlines
 from shapespline.formats.elliptic import elliptical_arc
-from shapespline.formats.outlines import bezier, closed_up
+from shapespline.formats.pieces import bezier, closed_up
 from shapespline.formats.svg_tree import prepared
 
 if TYPE_CHECKING:
@@ -75,18 +75,12 @@ def read(path: Path) -> Outlines:
     if height is None:
         y = np.concatenate([piece.control_points[:, 1] for pieces in curves for piece in pieces])
         height = float(y.min() + y.max())
-    turned = np.array([1.0, -1.0]) * page.scale, np.array([0.0, height]) * page.scale
-    return Outlines(
-        [
-            [
-                piece._replace(control_points=piece.control_points * turned[0] + turned[1])
-                for piece in pieces
-            ]
-            for pieces in curves
-        ],
-        page.frame,
-        page.unit,
-    )
+    scale, shift = np.array([page.scale, -page.scale]), np.array([0.0, height * page.scale])
+    turned = [
+        [piece._replace(control_points=piece.control_points * scale + shift) for piece in pieces]
+        for pieces in curves
+    ]
+    return Outlines(turned, page.frame, page.unit)
 
 
 def _sub_paths(root: ElementTree.Element) -> Iterator[list[Piece]]:

@@ -46,7 +46,7 @@ class Page:
         Without definitions, uses and view box: its coordinates are those of the view box, y down.
     turning_height : float or None
         y runs down: turned up it is this minus y. None without a page.
-    scale : ndarray or float
+    scale : float
         What coordinates are then multiplied with.
     frame : Frame or None
         The view box, turned and multiplied.
