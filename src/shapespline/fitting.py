@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -15,6 +16,7 @@ from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.estimation import FINAL_LIMITS, chosen_count
 from shapespline.knots import check_count, check_degree
 from shapespline.optimization import checked_weights, optimize
+from shapespline.progress import Watch
 from shapespline.removal import fit_spline
 from shapespline.sections import fit_pieces
 
@@ -42,6 +44,7 @@ def fit_curve(
     weights: ArrayLike | None = None,
     method: str = "levenberg-marquardt",
     callback: Callback | None = None,
+    time_limit: float | None = None,
 ) -> Fit:
     """Fit a B-spline curve to ordered points.
 
@@ -75,7 +78,12 @@ def fit_curve(
     method : str
         For least squares; see `optimize`.
     callback : callable, optional
-        Called with every Iteration of a least-squares run; a true answer cancels it.
+        Called with every Iteration of a least-squares run, or with the progress of a search
+        within a tolerance (an Iteration whose ``cost`` is the number of points), some times a
+        second; a true answer cancels it. The best curve so far is returned.
+    time_limit : float, optional
+        Seconds after which the search ends with the best curve so far. It is looked at between
+        iterations and between moves; finding a start and verifying the result come on top.
 
     Returns
     -------
@@ -122,7 +130,10 @@ def fit_curve(
     elif weights is not None:
         raise InvalidInputError("weights act in least squares only: leave out the tolerance")
     if tolerance is not None:
-        return _within(contour, tolerance_length(tolerance, contour), degree, corners, form, effort)
+        length = tolerance_length(tolerance, contour)
+        watch = Watch(callback, time_limit)
+        return _within(contour, length, degree, corners, form, effort, watch)
+    watch = Watch(callback, time_limit)
     summed = checked_weights(weights, contour)
     if n_control_points is None:
         count = chosen_count(contour, degree, summed)
@@ -133,15 +144,19 @@ def fit_curve(
                 f"n_control_points must be at most the number of distinct points, {len(contour)},"
                 f" got {count}; lower it"
             )
-    return optimize(
+    fit = optimize(
         contour,
         balanced_start(contour, count, degree, summed),
         method,
         weights=weights,
         stray_weight=STRAY_WEIGHT,
         limits=FINAL_LIMITS,
-        callback=callback,
+        callback=watch.iterated,
     )
+    if watch.ended_as != Status.BUDGET:
+        return fit
+    found = f"data to curve {fit.max_distance:.6g}, both ways {fit.hausdorff_distance:.6g}"
+    return replace(fit, status=watch.verdict(Status.BUDGET.saying(found)))
 
 
 def tolerance_length(tolerance: float | str, contour: Contour) -> float:
@@ -189,26 +204,36 @@ def _within(
     corners: Literal["auto", "free"] | ArrayLike | None,
     form: Form,
     effort: Effort,
+    watch: Watch,
 ) -> Fit:
     """The smallest curve within a tolerance, of the form that was asked for."""
     corners = _checked_corners(corners, len(contour))
     if form == "spline":
         if not (corners is None or isinstance(corners, str)):
             raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
-        single = fit_spline(contour, tolerance, degree=degree, effort=effort)
-        return _fit(contour, single.curve, single.distances, tolerance, "removal")
-    pieces = fit_pieces(contour, tolerance, corners=corners, degree=degree, effort=effort)
-    fit = _fit(
-        contour, pieces.spline, pieces.distances, tolerance, "sections", sections=pieces.pieces
+        single = fit_spline(contour, tolerance, degree=degree, effort=effort, watch=watch)
+        return _fit(contour, single.curve, single.distances, tolerance, "removal", watch)
+    pieces = fit_pieces(
+        contour, tolerance, corners=corners, degree=degree, effort=effort, watch=watch
     )
+    fit = _fit(
+        contour, pieces.spline, pieces.distances, tolerance, "sections", watch, pieces.pieces
+    )
+    if watch.ended_as:
+        return fit
     may_be_smooth = corners is None or not len(pieces.corners)
     if not may_be_smooth and not (isinstance(corners, str) and corners == "free"):
         return fit
-    single = fit_spline(contour, tolerance, degree=degree, effort=effort)
-    smooth = _fit(contour, single.curve, single.distances, tolerance, "removal")
+    single = fit_spline(contour, tolerance, degree=degree, effort=effort, watch=watch)
+    smooth = _fit(contour, single.curve, single.distances, tolerance, "removal", watch)
     # Of equals the single spline: it has no joints.
     better = smooth.kept >= fit.kept and smooth.n_stored_points <= fit.n_stored_points
-    return smooth if better else fit
+    return smooth if better else _ended(fit, watch)
+
+
+def _ended(fit: Fit, watch: Watch) -> Fit:
+    """The fit with what the watch has seen since."""
+    return replace(fit, status=watch.verdict(fit.status), history=tuple(watch.history))
 
 
 def _checked_corners(
@@ -231,6 +256,7 @@ def _fit(
     distances: Distances,
     tolerance: float,
     method: str,
+    watch: Watch,
     sections: tuple[Piece, ...] = (),
 ) -> Fit:
     """The Fit of a verified curve, with a status that is a true sentence."""
@@ -252,8 +278,8 @@ def _fit(
         rms_distance=distances.rms_distance,
         hausdorff_distance=distances.hausdorff_distance,
         tolerance=tolerance,
-        status=status,
-        history=(),
+        status=watch.verdict(status),
+        history=tuple(watch.history),
         method=method,
         sections=sections,
     )

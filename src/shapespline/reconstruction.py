@@ -26,6 +26,7 @@ def fit_shape(
     effort: Effort = "balanced",
     method: str = "levenberg-marquardt",
     callback: Callback | None = None,
+    time_limit: float | None = None,
 ) -> Drawing:
     """Fit a B-spline curve to each contour of a shape.
 
@@ -36,8 +37,8 @@ def fit_shape(
         Data units, or a part of the box diagonal of the whole shape, such as ``"0.1%"``.
     n_control_points : int, optional
         Number of control points of each curve; chosen for each contour when neither is given.
-    degree, corners, form, effort, method, callback
-        See `fit_curve`.
+    degree, corners, form, effort, method, callback, time_limit
+        See `fit_curve`; the limit is that of each contour.
 
     Returns
     -------
@@ -78,6 +79,7 @@ def fit_shape(
                 effort=effort,
                 method=method,
                 callback=callback,
+                time_limit=time_limit,
             )
         except InvalidInputError as error:
             if len(shape) == 1:

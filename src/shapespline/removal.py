@@ -19,10 +19,9 @@ from shapespline.curve import BSplineCurve
 from shapespline.distance import Distances, two_sided_distance
 from shapespline.errors import InvalidInputError
 from shapespline.knots import check_degree, periodic_knots
+from shapespline.progress import Watch
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from shapespline.contour import Contour
     from shapespline.typing import FloatArray
 
@@ -107,8 +106,6 @@ class SplineResult:
         Of the exported curve, both ways, certified.
     rule : RuleReport
         Of the exported curve.
-    cancelled : bool
-        Whether the callback stopped the search; the curve is the last one found.
     counts : dict
         Ranks, trials, removals and misses of the search.
     """
@@ -117,7 +114,6 @@ class SplineResult:
     tolerance: float
     distances: Distances
     rule: RuleReport
-    cancelled: bool
     counts: dict[str, int]
 
     @property
@@ -146,7 +142,7 @@ def fit_spline(
     degree: int = 3,
     effort: str = "balanced",
     product_rule: bool = True,
-    callback: Callable[[str, int], bool] | None = None,
+    watch: Watch | None = None,
 ) -> SplineResult:
     """One B-spline with few control points within a tolerance of the data, both ways.
 
@@ -164,9 +160,8 @@ def fit_spline(
     product_rule : bool
         Keep knot gaps within a factor of 1000, speed above 1/20 of its median and self-crossings
         to those of the data.
-    callback : callable, optional
-        Called with the name of each stage and the number of control points before it; the search
-        ends when it returns true.
+    watch : Watch, optional
+        Hears of the progress and may end the search; the curve is then the last one found.
 
     Returns
     -------
@@ -198,11 +193,12 @@ def fit_spline(
         raise InvalidInputError(f"effort must be one of {', '.join(LEVELS)}, got {effort!r}")
     if not (np.isfinite(tolerance) and tolerance > 0):
         raise InvalidInputError(f"tolerance must be a positive number, got {tolerance!r}")
+    watch = Watch() if watch is None else watch
     frame = _frame(contour)
     results: list[SplineResult] = []
     part, from_polyline = 1.0, False
     for _ in range(ATTEMPTS):
-        search, cancelled = _search(
+        search = _search(
             frame,
             contour.closed,
             part * tolerance,
@@ -210,7 +206,7 @@ def fit_spline(
             LEVELS[effort],
             product_rule,
             from_polyline,
-            callback,
+            watch,
         )
         curve = _exported(search, frame, contour.closed, degree)
         result = SplineResult(
@@ -218,11 +214,10 @@ def fit_spline(
             tolerance,
             two_sided_distance(curve, contour),
             rule_report(curve, contour),
-            cancelled,
             search.counts(),
         )
         results.append(result)
-        if cancelled or (result.kept and (result.rule.kept or not product_rule)):
+        if watch.ended_as or (result.kept and (result.rule.kept or not product_rule)):
             break
         if not result.kept:
             part *= TIGHTER
@@ -246,9 +241,9 @@ def _search(
     level: _Level,
     product_rule: bool,
     from_polyline: bool,
-    callback: Callable[[str, int], bool] | None,
-) -> tuple[_kernels.RemovalSearch, bool]:
-    """The stages of one search; also whether the callback ended it."""
+    watch: Watch,
+) -> _kernels.RemovalSearch:
+    """The stages of one search, as many as the watch allows."""
     scaled = tolerance * frame.scale
     least = min(max(LEAST_GAP_TOLERANCES * scaled, LEAST_GAP[0]), LEAST_GAP[1])
     least_gap, largest_gap = (least, GAP_RATIO * least) if product_rule else FREE_GAPS
@@ -268,16 +263,17 @@ def _search(
         SAMPLES_PER_SPAN,
         SAMPLE_WEIGHT,
         level.hope,
+        watch.ends,
     )
-    if callback is not None and callback("remove", search.n_points()):
-        return search, True
-    search.remove_cheapest(_RANK, level.remove, MOST_TRIALS)
+    if watch.stage(search.n_points()):
+        return search
+    search.remove_cheapest(_RANK, level.remove, MOST_TRIALS, watch.ends)
     for _ in range(level.passes):
-        if callback is not None and callback("insist", search.n_points()):
-            return search, True
-        if search.remove_stubborn(_INSIST, level.spreads) == 0:
+        if watch.stage(search.n_points()):
             break
-    return search, False
+        if search.remove_stubborn(_INSIST, level.spreads, watch.ends) == 0:
+            break
+    return search
 
 
 def _frame(contour: Contour) -> _Frame:

@@ -9,7 +9,7 @@ kernel call; this module decides what it may do, and verifies what it did.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import pairwise, product
 from math import frexp, ldexp
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -24,9 +24,10 @@ from shapespline.errors import InvalidInputError
 from shapespline.joining import backwards, joined, turn_between
 from shapespline.knots import check_degree
 from shapespline.nodes import aligned
+from shapespline.progress import Watch
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from shapespline.curve import BSplineCurve
     from shapespline.typing import ArrayLike, FloatArray, IntArray
@@ -127,6 +128,7 @@ def fit_pieces(
     corners: Literal["auto", "free"] | ArrayLike | None = "auto",
     degree: int = 3,
     effort: Effort = "balanced",
+    watch: Watch | None = None,
 ) -> PiecesResult:
     """Fit lines, Beziers and small splines to a contour, as few points as the tolerance allows.
 
@@ -142,6 +144,8 @@ def fit_pieces(
         Of ``spline``, 1 to 9; pieces have at most this degree, and at most 3.
     effort : {"fast", "balanced", "smallest"}
         How many candidate nodes, moves and runs are tried.
+    watch : Watch, optional
+        Hears of the progress and may end the search; what was reached is returned, verified.
 
     Returns
     -------
@@ -177,23 +181,43 @@ def fit_pieces(
     aim = tolerance * frame.scale
     chosen = _chosen_corners(work, aim, corners, frame)
     free = isinstance(corners, str) and corners == "free"
-    task = _Task(work, min(degree, SECTION_DEGREE), not free, not free, chosen)
+    watch = Watch() if watch is None else watch
+    task = _Task(work, min(degree, SECTION_DEGREE), not free, not free, chosen, watch)
     # Free of rules, sharp corners are still often the cheapest: both are tried.
     tasks = [task, task._replace(keep_corners=True)] if free and len(chosen) else [task]
+    results = []
     for part in AIMS:
-        runs = [task.run(part * aim, search) for search in SEARCHES[effort] for task in tasks]
-        best = min(runs, key=lambda pieces: sum(len(p.control_points) - 1 for p in pieces))
-        result = _verified(frame, best, contour, tolerance, degree)
-        if result.kept:
+        best = _smallest_run(tasks, part * aim, SEARCHES[effort], watch)
+        if best:
+            results.append(_verified(frame, best, contour, tolerance, degree))
+        if watch.ended_as or results[-1].kept:
             break
-    if result.kept and result.n_stored_points <= ROUGH_PART * len(contour):
-        return result
+    if results and results[-1].kept and results[-1].n_stored_points <= ROUGH_PART * len(contour):
+        return results[-1]
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
-    lines = _Task(work, 1, False, False, chosen).run(
+    lines = _Task(work, 1, False, False, chosen, Watch()).run(
         AIMS[0] * aim, SEARCHES["fast"][0]._replace(stride=1)
     )
     others = (_verified(frame, p, contour, tolerance, degree) for p in (lines, _through_all(work)))
-    return min((result, *others), key=lambda found: (not found.kept, found.n_stored_points))
+    return min((*results, *others), key=lambda found: (not found.kept, found.n_stored_points))
+
+
+def _smallest_run(
+    tasks: Sequence[_Task], aim: float, searches: Sequence[Search], watch: Watch
+) -> tuple[Piece, ...]:
+    """The best of all searches that were run before the watch ended them, empty if none was."""
+    best: tuple[Piece, ...] = ()
+    for search, task in product(searches, tasks):
+        if watch.stage(_size(best)):
+            break
+        found = task.run(aim, search)
+        if found and (not best or _size(found) < _size(best)):
+            best = found
+    return best
+
+
+def _size(pieces: Sequence[Piece]) -> int:
+    return sum(len(piece.control_points) - 1 for piece in pieces)
 
 
 class WorkingFrame(NamedTuple):
@@ -294,9 +318,10 @@ class _Task(NamedTuple):
     keep_corners: bool
     smooth: bool
     corners: IntArray
+    watch: Watch
 
     def run(self, tolerance: float, search: Search) -> tuple[Piece, ...]:
-        """One run of the kernel."""
+        """One run of the kernel; no pieces if it was ended before there were any."""
         n = len(self.contour)
         marked = np.zeros(n, dtype=np.int64)
         marked[self.corners] = 1
@@ -313,9 +338,10 @@ class _Task(NamedTuple):
             RELEASE * LEAST_TURN,
             search.passes,
             search.widest,
+            self.watch.ends,
         )
         pieces = _unpacked(degrees, counts, np.array(knots), np.array(coordinates))
-        if not self.smooth:
+        if not (self.smooth and pieces):
             return pieces
         return aligned(pieces, LARGEST_MOVE * tolerance, closed=self.contour.closed)
 
