@@ -220,7 +220,7 @@ NB_MODULE(_kernels, m) {
         "fit_sections",
         [](In2 points, bool closed, InIndices corner, InIndices forced,
            std::int64_t stride, double resolution, double tolerance, int largest_degree,
-           bool smooth, double least_corner, int passes, int widest, nb::object ask) {
+           bool smooth, bool ends_fixed, double least_corner, int passes, int widest, nb::object ask) {
             ss::Interruption asking = interruption(ask);
             nb::gil_scoped_release release;
             const ss::LaidOutOutline outline(
@@ -228,7 +228,7 @@ NB_MODULE(_kernels, m) {
                 resolution);
             std::vector<std::int64_t> degrees, counts;
             std::vector<double> knots, coordinates;
-            for (const ss::Section &s : outline.search(tolerance, largest_degree, smooth,
+            for (const ss::Section &s : outline.search(tolerance, largest_degree, smooth, ends_fixed,
                                                        least_corner, passes, widest, asking)) {
                 degrees.push_back(s.degree);
                 counts.push_back(static_cast<std::int64_t>(s.points.size()));
@@ -239,7 +239,7 @@ NB_MODULE(_kernels, m) {
         },
         "points"_a.noconvert(), "closed"_a, "corner"_a.noconvert(),
         "forced"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a, "largest_degree"_a,
-        "smooth"_a, "least_corner"_a, "passes"_a, "widest"_a, "ask"_a);
+        "smooth"_a, "ends_fixed"_a, "least_corner"_a, "passes"_a, "widest"_a, "ask"_a);
     // Knot removal: a search is a few calls, each a whole stage; see removal.hpp.
     nb::class_<ss::removal::RemovalSearch>(m, "RemovalSearch")
         .def(

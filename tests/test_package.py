@@ -26,7 +26,7 @@ TIERS = [
     {
         "distance", "corners", "noise", "initial", "residuals", "solvers", "trace", "channels",
         "ordering", "centerline", "formats", "plot", "comparison", "polygons", "joining", "exact",
-        "scaling", "arcs", "progress",
+        "scaling", "arcs", "progress", "outliers", "working_frame",
     },
     {"optimization", "sections", "nodes", "removal", "balance", "estimation", "paper_figures"},
     {"fitting"},

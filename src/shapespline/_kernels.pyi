@@ -124,6 +124,7 @@ def fit_sections(
     tolerance: float,
     largest_degree: int,  # 1 to 3
     smooth: bool,
+    ends_fixed: bool,
     least_corner: float,
     passes: int,
     widest: int,

@@ -103,7 +103,7 @@ class Fit:
     contour : Contour
         The data.
     parameters : ndarray, shape (n_given,)
-        The nearest foot parameter of every point that was given.
+        The nearest foot parameter of every point that was given and not left out.
     max_distance, rms_distance : float
         Data to curve, data units; the maximum is an upper bound up to rounding.
     hausdorff_distance : float

@@ -16,6 +16,7 @@ from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.estimation import FINAL_LIMITS, chosen_count
 from shapespline.knots import check_count, check_degree
 from shapespline.optimization import checked_weights, optimize
+from shapespline.outliers import find_outliers
 from shapespline.progress import Watch
 from shapespline.removal import fit_spline
 from shapespline.sections import fit_pieces
@@ -25,9 +26,10 @@ if TYPE_CHECKING:
     from shapespline.distance import Distances
     from shapespline.drawing import Piece
     from shapespline.optimization import Callback
-    from shapespline.typing import ArrayLike
+    from shapespline.typing import ArrayLike, IntArray
 
 Form = Literal["pieces", "spline"]
+Ends = Literal["free", "fixed"]
 Effort = Literal["fast", "balanced", "smallest"]
 
 
@@ -40,8 +42,10 @@ def fit_curve(
     degree: int = 3,
     corners: Literal["auto", "free"] | ArrayLike | None = "auto",
     form: Form = "pieces",
+    ends: Ends = "free",
     effort: Effort = "balanced",
     weights: ArrayLike | None = None,
+    outliers: bool = False,
     method: str = "levenberg-marquardt",
     callback: Callback | None = None,
     time_limit: float | None = None,
@@ -71,10 +75,17 @@ def fit_curve(
         them where that is smaller; know none; or these points are the corners.
     form : {"pieces", "spline"}
         With a tolerance: pieces between nodes, or one spline, smooth everywhere.
+    ends : {"free", "fixed"}
+        Of an open curve: "fixed" begins and ends in the first and last point, exactly. Pieces
+        whose ends are free may need fewer points; one spline always has fixed ends.
     effort : {"fast", "balanced", "smallest"}
         With a tolerance: how long to search.
     weights : array_like, shape (n,), optional
         One positive weight per point, for least squares.
+    outliers : bool
+        Whether to leave out points that jump off the path and back, up to three in a row (see
+        `find_outliers`); ``fit.outliers`` lists them and every promise is about the rest, which
+        is ``fit.contour``, as are ``fit.parameters``.
     method : str
         For least squares; see `optimize`.
     callback : callable, optional
@@ -108,12 +119,38 @@ def fit_curve(
     """
     degree = check_degree(degree)
     contour = _contour(points, closed)
+    if not isinstance(outliers, bool | np.bool_):
+        raise InvalidInputError(f"outliers must be True or False, got {outliers!r}")
+    if outliers and len(left_out := find_outliers(contour)):
+        given = np.flatnonzero(np.isin(contour.source, left_out))
+        rest = Contour.silently(
+            np.delete(contour.points[contour.source], given, axis=0),
+            contour.closed,
+            accuracy=contour.accuracy,
+        )
+        checked_weights(weights, contour)
+        fit = fit_curve(
+            rest,
+            tolerance=None if tolerance is None else tolerance_length(tolerance, rest),
+            n_control_points=n_control_points,
+            degree=degree,
+            corners=_renumbered(corners, left_out, len(contour)),
+            form=form,
+            ends=ends,
+            effort=effort,
+            weights=None if weights is None else np.delete(np.asarray(weights), given),
+            method=method,
+            callback=callback,
+            time_limit=time_limit,
+        )
+        return replace(fit, outliers=given)
     if len(contour) < degree + 1 and tolerance is None:
         raise DegenerateContourError(
             f"points must hold at least degree + 1 = {degree + 1} distinct points for degree"
             f" {degree}, got {len(contour)}; add points or lower the degree"
         )
     _check_choice("form", form, get_args(Form))
+    _check_choice("ends", ends, get_args(Ends))
     _check_choice("effort", effort, get_args(Effort))
     if tolerance is not None and n_control_points is not None:
         raise InvalidInputError("tolerance and n_control_points exclude each other: give one")
@@ -132,7 +169,7 @@ def fit_curve(
     if tolerance is not None:
         length = tolerance_length(tolerance, contour)
         watch = Watch(callback, time_limit)
-        return _within(contour, length, degree, corners, form, effort, watch)
+        return _within(contour, length, degree, corners, form, ends, effort, watch)
     watch = Watch(callback, time_limit)
     summed = checked_weights(weights, contour)
     if n_control_points is None:
@@ -203,6 +240,7 @@ def _within(
     degree: int,
     corners: Literal["auto", "free"] | ArrayLike | None,
     form: Form,
+    ends: Ends,
     effort: Effort,
     watch: Watch,
 ) -> Fit:
@@ -214,7 +252,13 @@ def _within(
         single = fit_spline(contour, tolerance, degree=degree, effort=effort, watch=watch)
         return _fit(contour, single.curve, single.distances, tolerance, "removal", watch)
     pieces = fit_pieces(
-        contour, tolerance, corners=corners, degree=degree, effort=effort, watch=watch
+        contour,
+        tolerance,
+        corners=corners,
+        degree=degree,
+        effort=effort,
+        ends_fixed=ends == "fixed",
+        watch=watch,
     )
     fit = _fit(
         contour, pieces.spline, pieces.distances, tolerance, "sections", watch, pieces.pieces
@@ -234,6 +278,17 @@ def _within(
 def _ended(fit: Fit, watch: Watch) -> Fit:
     """The fit with what the watch has seen since."""
     return replace(fit, status=watch.verdict(fit.status), history=tuple(watch.history))
+
+
+def _renumbered(
+    corners: Literal["auto", "free"] | ArrayLike | None, left_out: IntArray, n: int
+) -> Literal["auto", "free"] | ArrayLike | None:
+    """The corners among the points that stay."""
+    corners = _checked_corners(corners, n)
+    if corners is None or isinstance(corners, str):
+        return corners
+    staying = np.setdiff1d(corners, left_out)
+    return staying - np.searchsorted(left_out, staying)
 
 
 def _checked_corners(

@@ -208,7 +208,7 @@ def fit_spline(
             from_polyline,
             watch,
         )
-        curve = _exported(search, frame, contour.closed, degree)
+        curve = _exported(search, frame, contour, degree)
         result = SplineResult(
             curve,
             tolerance,
@@ -296,13 +296,14 @@ def _frame(contour: Contour) -> _Frame:
 
 
 def _exported(
-    search: _kernels.RemovalSearch, frame: _Frame, closed: bool, degree: int
+    search: _kernels.RemovalSearch, frame: _Frame, contour: Contour, degree: int
 ) -> BSplineCurve:
     """The curve over [0, 1] in data units; the seam of a periodic one is a simple knot."""
     gap_list, coordinates = search.curve()
     gaps = np.array(gap_list)
     points = np.array(coordinates).reshape(-1, 2) / frame.scale + frame.middle
-    if not closed:
+    if not contour.closed:
+        points[[0, -1]] = contour.points[[0, -1]]  # but for the rounding of the frame they are
         knots = np.concatenate([[0.0], np.cumsum(gaps)])
         knots /= knots[-1]
         knots[len(points) :] = 1.0  # rounding

@@ -10,25 +10,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import pairwise, product
-from math import frexp, ldexp
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.contour import Contour
 from shapespline.corners import LEAST_TURN, find_corners
 from shapespline.distance import Distances, two_sided_distance
 from shapespline.drawing import Piece
 from shapespline.errors import InvalidInputError
-from shapespline.joining import backwards, joined, turn_between
+from shapespline.joining import joined, turn_between
 from shapespline.knots import check_degree
 from shapespline.nodes import aligned
 from shapespline.progress import Watch
+from shapespline.working_frame import WorkingFrame
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from shapespline.contour import Contour
     from shapespline.curve import BSplineCurve
     from shapespline.typing import ArrayLike, FloatArray, IntArray
 
@@ -128,6 +128,7 @@ def fit_pieces(
     corners: Literal["auto", "free"] | ArrayLike | None = "auto",
     degree: int = 3,
     effort: Effort = "balanced",
+    ends_fixed: bool = False,
     watch: Watch | None = None,
 ) -> PiecesResult:
     """Fit lines, Beziers and small splines to a contour, as few points as the tolerance allows.
@@ -144,6 +145,8 @@ def fit_pieces(
         Of ``spline``, 1 to 9; pieces have at most this degree, and at most 3.
     effort : {"fast", "balanced", "smallest"}
         How many candidate nodes, moves and runs are tried.
+    ends_fixed : bool
+        Whether the curve of an open contour begins and ends in its first and last point, exactly.
     watch : Watch, optional
         Hears of the progress and may end the search; what was reached is returned, verified.
 
@@ -182,23 +185,26 @@ def fit_pieces(
     chosen = _chosen_corners(work, aim, corners, frame)
     free = isinstance(corners, str) and corners == "free"
     watch = Watch() if watch is None else watch
-    task = _Task(work, min(degree, SECTION_DEGREE), not free, not free, chosen, watch)
+    task = _Task(work, min(degree, SECTION_DEGREE), not free, not free, chosen, ends_fixed, watch)
     # Free of rules, sharp corners are still often the cheapest: both are tried.
     tasks = [task, task._replace(keep_corners=True)] if free and len(chosen) else [task]
     results = []
     for part in AIMS:
         best = _smallest_run(tasks, part * aim, SEARCHES[effort], watch)
         if best:
-            results.append(_verified(frame, best, contour, tolerance, degree))
+            results.append(_verified(frame, best, contour, tolerance, degree, ends_fixed))
         if watch.ended_as or results[-1].kept:
             break
     if results and results[-1].kept and results[-1].n_stored_points <= ROUGH_PART * len(contour):
         return results[-1]
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
-    lines = _Task(work, 1, False, False, chosen, Watch()).run(
+    lines = _Task(work, 1, False, False, chosen, ends_fixed, Watch()).run(
         AIMS[0] * aim, SEARCHES["fast"][0]._replace(stride=1)
     )
-    others = (_verified(frame, p, contour, tolerance, degree) for p in (lines, _through_all(work)))
+    others = (
+        _verified(frame, p, contour, tolerance, degree, ends_fixed)
+        for p in (lines, _through_all(work))
+    )
     return min((*results, *others), key=lambda found: (not found.kept, found.n_stored_points))
 
 
@@ -218,69 +224,6 @@ def _smallest_run(
 
 def _size(pieces: Sequence[Piece]) -> int:
     return sum(len(piece.control_points) - 1 for piece in pieces)
-
-
-class WorkingFrame(NamedTuple):
-    """A contour in the order and the unit in which it is fitted.
-
-    ``contour`` has its middle at the origin, a box diagonal between 64 and 128 (the scale is a
-    power of two, exact), and an order that does not depend on where the data begin and which way
-    they run. ``order`` (n,) are the indices of its points in the data.
-    """
-
-    contour: Contour
-    order: IntArray
-    middle: FloatArray
-    scale: float
-    reversed: bool
-
-    @classmethod
-    def of(cls, contour: Contour) -> WorkingFrame:
-        """The frame of a contour."""
-        points = contour.points
-        order, backwards = _canonical_order(points, closed=contour.closed)
-        scale = ldexp(1.0, 7 - frexp(contour.box_diagonal)[1])
-        middle = points.min(axis=0) + 0.5 * np.ptp(points, axis=0)
-        moved = (points[order] - middle) * scale
-        if (moved == np.roll(moved, -1, axis=0)).all(axis=1).any():
-            # Neighbours so close that they fall together far from the origin: leave the origin.
-            middle = np.zeros(2)
-            moved = points[order] * scale
-        return cls(Contour(moved, contour.closed), order, middle, scale, backwards)
-
-    def restored(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
-        """Pieces in the unit of the data, running the way the data run."""
-        pieces = tuple(
-            piece._replace(control_points=piece.control_points / self.scale + self.middle)
-            for piece in pieces
-        )
-        return backwards(pieces) if self.reversed else pieces
-
-
-def _canonical_order(points: FloatArray, *, closed: bool) -> tuple[IntArray, bool]:
-    """Indices in an order that depends on the geometry only, and whether it runs backwards.
-
-    Closed outlines start at the point with the least x, then y, and go on to the lesser of its
-    neighbours; open ones start at the lesser end.
-    """
-    n = len(points)
-    index = np.arange(n)
-    if not closed:
-        ends = [points[0].tolist(), points[-1].tolist()]
-        if ends[0] == ends[1]:
-            ends = [points[1].tolist(), points[-2].tolist()]
-        backwards = ends[1] < ends[0]
-        return (index[::-1] if backwards else index), backwards
-    least = np.lexsort((points[:, 1], points[:, 0]))[0]
-    ties = np.flatnonzero((points == points[least]).all(axis=1))
-
-    def neighbours(i: int) -> list[list[float]]:
-        return [points[(i + 1) % n].tolist(), points[i - 1].tolist()]
-
-    start = min((int(i) for i in ties), key=lambda i: sorted(neighbours(i)))
-    after, before = neighbours(start)
-    backwards = before < after
-    return (start + (-index if backwards else index)) % n, backwards
 
 
 def _chosen_corners(
@@ -318,6 +261,7 @@ class _Task(NamedTuple):
     keep_corners: bool
     smooth: bool
     corners: IntArray
+    ends_fixed: bool
     watch: Watch
 
     def run(self, tolerance: float, search: Search) -> tuple[Piece, ...]:
@@ -335,6 +279,7 @@ class _Task(NamedTuple):
             tolerance,
             self.largest_degree,
             self.smooth,
+            self.ends_fixed,
             RELEASE * LEAST_TURN,
             search.passes,
             search.widest,
@@ -379,10 +324,18 @@ def _without_specks(pieces: list[Piece]) -> tuple[Piece, ...]:
 
 
 def _verified(
-    frame: WorkingFrame, found: tuple[Piece, ...], contour: Contour, tolerance: float, degree: int
+    frame: WorkingFrame,
+    found: tuple[Piece, ...],
+    contour: Contour,
+    tolerance: float,
+    degree: int,
+    ends_fixed: bool,
 ) -> PiecesResult:
     """The result in the data's unit with its distances measured."""
     pieces = frame.restored(found)
+    if ends_fixed and not contour.closed:  # but for the rounding of the frame they are
+        pieces[0].control_points[0] = contour.points[0]
+        pieces[-1].control_points[-1] = contour.points[-1]
     spline = joined(pieces, degree)
     sharp = [
         pieces[i].control_points[0]

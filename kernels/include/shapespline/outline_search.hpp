@@ -17,7 +17,8 @@ struct OutlineSearch {
     std::vector<NodeKind> nodes;  // of each candidate
     double tolerance;
     int largest_degree;
-    bool smooth;  // joints that are no corners are tangent
+    bool smooth;      // joints that are no corners are tangent
+    bool ends_fixed;  // an open outline begins and ends in its first and last datum
     double least_corner;  // radians: a corner that the fit turns less is given up
     ReductionLimits reduction;
     Interruption &interruption;
@@ -26,7 +27,7 @@ struct OutlineSearch {
     std::vector<Section> run() const {
         std::vector<Section> path = sections_of_best_path();
         if (path.empty()) return path;
-        SectionRing ring(std::move(path), period);
+        SectionRing ring(std::move(path), period, ends_fixed);
         JointSmoother smoother(data, ring, tolerance, largest_degree);
         Reduction reducer(data, ring, reduction, interruption);
         if (smooth) smoother.run();
@@ -184,11 +185,12 @@ class LaidOutOutline {
         if (closed) add(once[0] + 3 * n_);
     }
 
-    std::vector<Section> search(double tolerance, int largest_degree, bool smooth,
+    std::vector<Section> search(double tolerance, int largest_degree, bool smooth, bool ends_fixed,
                                 double least_corner, int passes, int widest,
                                 Interruption &interruption) const {
         return OutlineSearch{data_,     closed_ ? n_ : 0, candidates_, nodes_,
-                             tolerance, largest_degree,   smooth,      least_corner,
+                             tolerance, largest_degree,   smooth,      ends_fixed,
+                             least_corner,
                              {tolerance, largest_degree, smooth, passes, widest},
                              interruption}
             .run();

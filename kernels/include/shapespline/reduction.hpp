@@ -47,11 +47,7 @@ class Reduction {
   private:
     static constexpr int kRounds = 25, kStartRounds = 8;
 
-    long n_points() const {
-        long sum = ring_.closed() ? 0 : 1;
-        for (long i = 0; i < ring_.size(); ++i) sum += ring_.at(i).cost();
-        return sum;
-    }
+    long n_points() const { return ring_.cost() + (ring_.closed() ? 0 : 1); }
 
     // One section of one point less.
     bool demote(long i, int side) {
