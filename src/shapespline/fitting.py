@@ -28,6 +28,10 @@ if TYPE_CHECKING:
     from shapespline.optimization import Callback
     from shapespline.typing import ArrayLike, IntArray
 
+# So many points that spread across a line by no more than this part of the tolerance are a straight
+# run of the data, which one smooth spline would bend.
+FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1
+
 Form = Literal["pieces", "spline"]
 Ends = Literal["free", "fixed"]
 Effort = Literal["fast", "balanced", "smallest"]
@@ -265,14 +269,29 @@ def _within(
     )
     if watch.ended_as:
         return fit
+    free = isinstance(corners, str) and corners == "free"
+    if not free and any(_drawn_straight(piece, contour, tolerance) for piece in pieces.pieces):
+        return fit
     may_be_smooth = corners is None or not len(pieces.corners)
-    if not may_be_smooth and not (isinstance(corners, str) and corners == "free"):
+    if not may_be_smooth and not free:
         return fit
     single = fit_spline(contour, tolerance, degree=degree, effort=effort, watch=watch)
     smooth = _fit(contour, single.curve, single.distances, tolerance, "removal", watch)
     # Of equals the single spline: it has no joints.
     better = smooth.kept >= fit.kept and smooth.n_stored_points <= fit.n_stored_points
     return smooth if better else _ended(fit, watch)
+
+
+def _drawn_straight(piece: Piece, contour: Contour, tolerance: float) -> bool:
+    """Whether the data along a line are straight themselves, by far more than the tolerance."""
+    if piece.degree > 1:
+        return False
+    begin, side = piece.control_points[0], np.diff(piece.control_points, axis=0)[0]
+    length = float(np.hypot(*side))
+    along = (contour.points - begin) @ side / length**2
+    off = (contour.points - begin) @ np.array([-side[1], side[0]]) / length
+    beside = off[(np.abs(along - 0.5) < 0.4) & (np.abs(off) <= tolerance)]
+    return len(beside) >= FEWEST_STRAIGHT and float(np.ptp(beside)) <= STRAIGHT_PART * tolerance
 
 
 def _ended(fit: Fit, watch: Watch) -> Fit:
