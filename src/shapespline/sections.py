@@ -167,6 +167,7 @@ def fit_pieces(
 
     Examples
     --------
+    >>> from shapespline import Contour
     >>> side = np.linspace(0, 1, 20, endpoint=False)
     >>> x = np.concatenate([side, 1 + 0 * side, 1 - side, 0 * side])
     >>> square = Contour(np.column_stack([x, np.roll(x, 20)]), closed=True)
