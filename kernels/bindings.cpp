@@ -28,6 +28,7 @@
 namespace nb = nanobind;
 using namespace nb::literals;
 namespace ss = shapespline;
+using Removal = ss::removal::RemovalSearch;
 
 namespace {
 
@@ -56,6 +57,15 @@ ss::Samples samples(const In2 &points, const In1 &parameters, const std::optiona
                     int held = 0, bool control_ends_fixed = false, double stray_weight = 0.0) {
     return {vectors(points), numbers(parameters), weights ? weights->data() : nullptr,
             static_cast<ss::Held>(held), control_ends_fixed, stray_weight};
+}
+
+// The caller's question, and its Ctrl-C; called while the GIL is released.
+ss::Interruption interruption(const nb::object &ask) {
+    return ss::Interruption([&ask](long n_points) {
+        nb::gil_scoped_acquire acquire;
+        if (PyErr_CheckSignals() != 0) throw nb::python_error();
+        return nb::cast<bool>(ask(n_points));
+    });
 }
 
 }  // namespace
@@ -214,16 +224,17 @@ NB_MODULE(_kernels, m) {
         "fit_sections",
         [](In2 points, bool closed, InIndices corner, InIndices forced,
            std::int64_t stride, double resolution, double tolerance, int largest_degree,
-           bool smooth, double least_corner, int passes, int widest,
+           bool smooth, bool ends_fixed, double least_corner, int passes, int widest, nb::object ask,
            std::optional<In2> observed, double noise) {
+            ss::Interruption asking = interruption(ask);
             nb::gil_scoped_release release;
             const ss::LaidOutOutline outline(
                 vectors(points), closed, {indices(corner), indices(forced)}, stride,
                 resolution);
             std::vector<std::int64_t> degrees, counts;
             std::vector<double> knots, coordinates;
-            auto sections = outline.search(tolerance, largest_degree, smooth, least_corner, passes,
-                                           widest);
+            auto sections = outline.search(tolerance, largest_degree, smooth, ends_fixed,
+                                           least_corner, passes, widest, asking);
             if (observed)
                 sections = ss::fit_observed(vectors(*observed), closed, std::move(sections), noise);
             for (const ss::Section &s : sections) {
@@ -236,7 +247,7 @@ NB_MODULE(_kernels, m) {
         },
         "points"_a.noconvert(), "closed"_a, "corner"_a.noconvert(),
         "forced"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a, "largest_degree"_a,
-        "smooth"_a, "least_corner"_a, "passes"_a, "widest"_a,
+        "smooth"_a, "ends_fixed"_a, "least_corner"_a, "passes"_a, "widest"_a, "ask"_a,
         "observed"_a.none().noconvert() = nb::none(), "noise"_a = 0.0);
     // Knot removal: a search is a few calls, each a whole stage; see removal.hpp.
     nb::class_<ss::removal::RemovalSearch>(m, "RemovalSearch")
@@ -245,7 +256,8 @@ NB_MODULE(_kernels, m) {
             [](ss::removal::RemovalSearch *self, In2 data, bool closed, int degree, double tolerance,
                bool keep_rule, bool start_from_polyline, double gap_ratio, double speed_ratio,
                double least_gap, double largest_gap, double enough, double accept, int samples_per_span,
-               double sample_weight, double hope) {
+               double sample_weight, double hope, nb::object ask) {
+                ss::Interruption asking = interruption(ask);
                 nb::gil_scoped_release release;
                 const ss::removal::FitLimits fit{tolerance,     enough,    samples_per_span,
                                         sample_weight, least_gap, largest_gap,
@@ -253,16 +265,31 @@ NB_MODULE(_kernels, m) {
                 new (self) ss::removal::RemovalSearch(
                     vectors(data), closed, degree,
                     {tolerance, keep_rule, start_from_polyline, {gap_ratio, speed_ratio}, fit,
-                     accept});
+                     accept},
+                    asking);
             },
             "data"_a.noconvert(), "closed"_a, "degree"_a, "tolerance"_a, "keep_rule"_a,
             "start_from_polyline"_a, "gap_ratio"_a, "speed_ratio"_a, "least_gap"_a,
             "largest_gap"_a, "enough"_a,
-            "accept"_a, "samples_per_span"_a, "sample_weight"_a, "hope"_a)
-        .def("remove_cheapest", &ss::removal::RemovalSearch::remove_cheapest, "rank"_a, "effort"_a,
-             "most_trials"_a, nb::call_guard<nb::gil_scoped_release>())
-        .def("remove_stubborn", &ss::removal::RemovalSearch::remove_stubborn, "effort"_a, "spreads"_a,
-             nb::call_guard<nb::gil_scoped_release>())
+            "accept"_a, "samples_per_span"_a, "sample_weight"_a, "hope"_a, "ask"_a)
+        .def(
+            "remove_cheapest",
+            [](Removal &self, const Removal::EffortTuple &rank, const Removal::EffortTuple &effort,
+               long most_trials, nb::object ask) {
+                ss::Interruption asking = interruption(ask);
+                nb::gil_scoped_release release;
+                return self.remove_cheapest(rank, effort, most_trials, asking);
+            },
+            "rank"_a, "effort"_a, "most_trials"_a, "ask"_a)
+        .def(
+            "remove_stubborn",
+            [](Removal &self, const Removal::EffortTuple &effort, const std::vector<int> &spreads,
+               nb::object ask) {
+                ss::Interruption asking = interruption(ask);
+                nb::gil_scoped_release release;
+                return self.remove_stubborn(effort, spreads, asking);
+            },
+            "effort"_a, "spreads"_a, "ask"_a)
         .def("curve", &ss::removal::RemovalSearch::curve)
         .def("n_points", &ss::removal::RemovalSearch::n_points)
         .def("counts", &ss::removal::RemovalSearch::counts);

@@ -215,7 +215,7 @@ WRONG = [
     ((*FIT, "method"), 3, "method must be a string, found 3"),
     ((*FIT, "parameters"), [0.0], "one for each of 6 points, found 1"),
     ((*FIT, "parameters", 2), None, r"parameters\[2\] must be a number, found null"),
-    ((*FIT, "outliers"), [6], "must be from 0 to 5, found 6"),
+    ((*FIT, "outliers"), [7], "must be from 0 to 6, found 7"),
     ((*FIT, "outliers"), [1.0], "must be an integer"),
     ((*FIT, "status", "name"), "FINE", "one of KEPT, EXCEEDED, BUDGET, CANCELLED, found 'FINE'"),
     ((*FIT, "history", "cost"), [1.0], "columns of one length"),

@@ -26,13 +26,14 @@ TIERS = [
     {
         "distance", "corners", "initial", "residuals", "solvers", "trace", "channels",
         "ordering", "chain_links", "centerline", "formats", "plot", "comparison", "polygons",
-        "joining", "frame", "exact", "scaling", "arcs",
+        "joining", "frame", "exact", "scaling", "arcs", "progress", "outliers",
     },
     {
         "verification", "optimization", "sections", "nodes", "removal", "balance", "estimation",
         "placement",
         "paper_figures",
     },
+    {"tolerance"},
     {"fitting"},
     {"reconstruction", "paper", "paper_report"},
     {"batch"},

@@ -10,7 +10,9 @@ from scipy.spatial import cKDTree
 from tests.shapes import flower, moved, on_circle, rectangle, wave
 
 from shapespline.contour import Contour
+from shapespline.drawing import Status
 from shapespline.errors import InvalidInputError
+from shapespline.progress import Watch
 from shapespline.removal import GAP_RATIO, SPEED_RATIO, fit_spline
 
 # Control points with the product rule at 0.1 and 0.5 % of the box diagonal: no more than these.
@@ -163,17 +165,13 @@ def test_more_effort_never_breaks_the_promise():
 
 
 def test_the_callback_sees_the_stages_and_ends_the_search():
-    seen = []
-
-    def stop(stage, n_control_points):
-        seen.append((stage, n_control_points))
-        return stage == "insist"
-
-    fit = fit_spline(flower(), 0.02, callback=stop)
-    assert fit.cancelled
+    # The first stage removes the cheapest knots, the second insists on the others.
+    watch = Watch(lambda record: record.iteration == 1)
+    fit = fit_spline(flower(), 0.02, watch=watch)
+    assert watch.ended_as == Status.CANCELLED
     assert fit.kept
-    assert [stage for stage, _ in seen] == ["remove", "insist"]
-    assert seen[0][1] >= seen[1][1] == fit.n_control_points
+    first, second = (record.cost for record in watch.history)
+    assert first >= second == fit.n_control_points
 
 
 @pytest.mark.parametrize(

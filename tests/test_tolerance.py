@@ -7,7 +7,7 @@ from numpy.testing import assert_array_equal
 from tests.shapes import flower, moved
 
 from shapespline import Contour, InvalidInputError, Shape, Status, fit_curve, fit_shape, read, write
-from shapespline.fitting import tolerance_length
+from shapespline.tolerance import tolerance_length
 
 # Stored points at a tolerance of 0.1 and 0.5 on a box diagonal of 100, upper bounds: what the
 # experiments reached on the same outlines, and a few per cent for the luck of a local search.

@@ -1,6 +1,8 @@
 # The compiled loops (kernels/bindings.cpp). They check and convert nothing: arrays must be
 # C-contiguous float64 (first: int64) of the shapes said here, outputs are written in place.
 # nc = len(knots) - degree - 1 unrolled coefficients, m distinct control points, n data points.
+from collections.abc import Callable
+
 from shapespline.typing import FloatArray, IntArray
 
 MAX_DEGREE: int
@@ -109,6 +111,10 @@ def corner_turns(
     length: float,
     turns: FloatArray,  # out (n,), n <= k - first
 ) -> None: ...
+
+# Asked now and then with the number of points, 0 before there is a curve; true ends the search.
+_Ask = Callable[[int], bool]
+
 def fit_sections(
     points: FloatArray,  # (n, 2)
     closed: bool,
@@ -119,9 +125,11 @@ def fit_sections(
     tolerance: float,
     largest_degree: int,  # 1 to 3
     smooth: bool,
+    ends_fixed: bool,
     least_corner: float,
     passes: int,
     widest: int,
+    ask: _Ask,
     observed: FloatArray | None = None,  # (n, 2): the sections are fitted to these in the end
     noise: float = 0.0,
 ) -> tuple[
@@ -150,9 +158,12 @@ class RemovalSearch:
         samples_per_span: int,
         sample_weight: float,
         hope: float,
+        ask: _Ask,
     ) -> None: ...
-    def remove_cheapest(self, rank: _Effort, effort: _Effort, most_trials: int) -> int: ...
-    def remove_stubborn(self, effort: _Effort, spreads: list[int]) -> int: ...
+    def remove_cheapest(
+        self, rank: _Effort, effort: _Effort, most_trials: int, ask: _Ask
+    ) -> int: ...
+    def remove_stubborn(self, effort: _Effort, spreads: list[int], ask: _Ask) -> int: ...
     def curve(self) -> tuple[list[float], list[float]]: ...  # gaps, control points x, y in turn
     def n_points(self) -> int: ...
     def counts(self) -> dict[str, int]: ...

@@ -69,7 +69,9 @@ Status.CANCELLED = Status("CANCELLED", "the callback cancelled the fit")
 class Iteration(NamedTuple):
     """One record of a fit's history; evaluations and seconds count from the start.
 
-    ``paper_error`` is the paper's E_i, the root of the sum of squared residuals over n - 1.
+    ``paper_error`` is the paper's E_i, the root of the sum of squared residuals over n - 1. With a
+    tolerance a record stands for a stage of the search: ``cost`` is its number of points (0 before
+    there is a curve) and what does not apply is NaN.
     """
 
     iteration: int
@@ -101,7 +103,7 @@ class Fit:
     contour : Contour
         The data.
     parameters : ndarray, shape (n_given,)
-        The nearest foot parameter of every point that was given.
+        The nearest foot parameter of every point that was given and not left out.
     max_distance, rms_distance : float
         Data to curve, data units; the maximum is an upper bound up to rounding.
     hausdorff_distance : float

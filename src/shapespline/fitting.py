@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import warnings
-from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from shapespline.arrays import float_array, is_number
 from shapespline.balance import STRAY_WEIGHT, balanced_start
 from shapespline.contour import Contour
+from shapespline.drawing import Status
 from shapespline.errors import (
     DegenerateContourError,
     InvalidInputError,
@@ -30,19 +29,25 @@ from shapespline.joining import joined
 from shapespline.knots import check_count, check_degree
 from shapespline.optimization import checked_weights, optimize
 from shapespline.ordering import looks_shuffled
+from shapespline.outliers import find_outliers
 from shapespline.placement import dominant_start, uniform_start
-from shapespline.removal import fit_spline
-from shapespline.sections import fit_pieces
+from shapespline.progress import Watch
+from shapespline.tolerance import (
+    Effort,
+    Ends,
+    Form,
+    checked_corners,
+    fit_within,
+    tolerance_length,
+)
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
     from shapespline.balance import Balanced
     from shapespline.drawing import Fit
     from shapespline.optimization import Callback
-    from shapespline.typing import ArrayLike
+    from shapespline.typing import ArrayLike, IntArray
 
-Form = Literal["pieces", "spline"]
-Effort = Literal["fast", "balanced", "smallest"]
 Knots = Literal["balanced", "dominant", "uniform"]
 # What least squares of a given size starts from.
 STARTS = {"balanced": balanced_start, "dominant": dominant_start, "uniform": uniform_start}
@@ -57,11 +62,14 @@ def fit_curve(
     degree: int = 3,
     corners: Literal["auto", "free"] | ArrayLike | None = "auto",
     form: Form = "pieces",
+    ends: Ends = "free",
     effort: Effort = "balanced",
     weights: ArrayLike | None = None,
     knots: Knots = "balanced",
+    outliers: bool = False,
     method: str = "levenberg-marquardt",
     callback: Callback | None = None,
+    time_limit: float | None = None,
 ) -> Fit:
     """Fit a B-spline curve to ordered points.
 
@@ -90,6 +98,10 @@ def fit_curve(
         them where that is smaller; know none; or these points are the corners.
     form : {"pieces", "spline"}
         Pieces between nodes, or one spline, smooth everywhere.
+    ends : {"free", "fixed"}
+        Of an open curve: "fixed" begins and ends in the first and last point, exactly. Pieces
+        whose ends are free may need fewer points; one spline always has fixed ends, but where it
+        is estimated from noisy points.
     effort : {"fast", "balanced", "smallest"}
         How long to search.
     weights : array_like, shape (n,), optional
@@ -97,10 +109,19 @@ def fit_curve(
     knots : {"balanced", "dominant", "uniform"}
         With a number of control points: spread until every span errs as much, or for comparison
         at dominant points or equally spaced.
+    outliers : bool
+        Whether to leave out points that jump off the path and back, up to three in a row (see
+        `find_outliers`); ``fit.outliers`` lists them and every promise is about the rest, which
+        is ``fit.contour``, as are ``fit.parameters``.
     method : str
         For least squares; see `optimize`.
     callback : callable, optional
-        Called with every Iteration of a least-squares run; a true answer cancels it.
+        Called with every Iteration of a least-squares run, or with the progress of a search
+        within a tolerance (an Iteration whose ``cost`` is the number of points), some times a
+        second; a true answer cancels it. The best curve so far is returned.
+    time_limit : float, optional
+        Seconds after which the search ends with the best curve so far. It is looked at between
+        iterations and between moves; finding a start and verifying the result come on top.
 
     Returns
     -------
@@ -132,6 +153,32 @@ def fit_curve(
             ShuffledPointsWarning,
             stacklevel=2,
         )
+    if not isinstance(outliers, bool | np.bool_):
+        raise InvalidInputError(f"outliers must be True or False, got {outliers!r}")
+    if outliers and len(left_out := find_outliers(contour)):
+        given = np.flatnonzero(np.isin(contour.source, left_out))
+        rest = Contour.silently(
+            np.delete(contour.points[contour.source], given, axis=0),
+            contour.closed,
+            accuracy=contour.accuracy,
+        )
+        checked_weights(weights, contour)
+        fit = fit_curve(
+            rest,
+            tolerance=None if tolerance is None else tolerance_length(tolerance, rest),
+            n_control_points=n_control_points,
+            degree=degree,
+            corners=_renumbered(corners, left_out, len(contour)),
+            form=form,
+            ends=ends,
+            effort=effort,
+            weights=None if weights is None else np.delete(np.asarray(weights), given),
+            knots=knots,
+            method=method,
+            callback=callback,
+            time_limit=time_limit,
+        )
+        return replace(fit, outliers=given)
     one_spline = n_control_points is not None or weights is not None
     if len(contour) < degree + 1 and tolerance is None and one_spline:
         raise DegenerateContourError(
@@ -139,6 +186,7 @@ def fit_curve(
             f" {degree}, got {len(contour)}; add points or lower the degree"
         )
     _check_choice("form", form, get_args(Form))
+    _check_choice("ends", ends, get_args(Ends))
     _check_choice("effort", effort, get_args(Effort))
     _check_choice("knots", knots, get_args(Knots))
     if knots != "balanced" and n_control_points is None:
@@ -158,53 +206,31 @@ def fit_curve(
     if tolerance is not None:
         if weights is not None:
             raise InvalidInputError("weights act in least squares only: leave out the tolerance")
-        return _within(contour, tolerance_length(tolerance, contour), degree, corners, form, effort)
+        length = tolerance_length(tolerance, contour)
+        watch = Watch(callback, time_limit)
+        return fit_within(contour, length, degree, corners, form, ends, effort, watch)
+    watch = Watch(callback, time_limit)
     summed = checked_weights(weights, contour)
     if n_control_points is None:
         if weights is None:
-            return _estimated(contour, degree, corners, form, effort, method, callback)
-        start = smooth_start(contour, degree, summed)
-        return _finished(contour, start, method, weights, callback)
+            return _estimated(contour, degree, corners, form, ends, effort, method, watch)
+        return _finished(contour, smooth_start(contour, degree, summed), method, weights, watch)
     count = check_count(n_control_points, degree)
     if count > len(contour):
         raise InvalidInputError(
             f"n_control_points must be at most the number of distinct points, {len(contour)},"
             f" got {count}; lower it"
         )
-    return optimize(
+    fit = optimize(
         contour,
         STARTS[knots](contour, count, degree, summed),
         method,
         weights=weights,
         stray_weight=STRAY_WEIGHT,
         limits=FINAL_LIMITS,
-        callback=callback,
+        callback=watch.iterated,
     )
-
-
-def tolerance_length(tolerance: float | str, contour: Contour) -> float:
-    """A tolerance as a length in data units: a number, or a part of the box diagonal in per cent.
-
-    Examples
-    --------
-    >>> tolerance_length("0.5%", Contour([(0, 0), (3, 4)]))
-    0.025
-    """
-    length = np.nan
-    if isinstance(tolerance, str):
-        text = tolerance.strip()
-        with suppress(ValueError):
-            length = float(text.removesuffix("%"))
-        if text.endswith("%"):
-            length *= 0.01 * contour.box_diagonal
-    elif is_number(tolerance):
-        length = float(tolerance)
-    if not 0 < length < np.inf:
-        raise InvalidInputError(
-            "tolerance must be a positive length in data units, or a part of the box diagonal"
-            f" such as '0.1%', got {tolerance!r}"
-        )
-    return length
+    return _in_time(fit, watch)
 
 
 def _contour(points: ArrayLike | Contour, closed: bool | None) -> Contour:
@@ -220,45 +246,15 @@ def _check_choice(name: str, value: object, choices: tuple[str, ...]) -> None:
         raise InvalidInputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
 
 
-def _within(
-    contour: Contour,
-    tolerance: float,
-    degree: int,
-    corners: Literal["auto", "free"] | ArrayLike | None,
-    form: Form,
-    effort: Effort,
-) -> Fit:
-    """The smallest curve within a tolerance, of the form that was asked for."""
-    corners = _checked_corners(corners, len(contour))
-    if form == "spline":
-        if not (corners is None or isinstance(corners, str)):
-            raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
-        return _single(contour, tolerance, degree, effort)
-    pieces = fit_pieces(contour, tolerance, corners=corners, degree=degree, effort=effort)
-    fit = verified_fit(
-        contour,
-        pieces.spline,
-        tolerance=tolerance,
-        method="sections",
-        sections=pieces.pieces,
-        distances=pieces.distances,
-    )
-    straight = any(piece.kind == "line" for piece in pieces.pieces)
-    may_be_smooth = corners is None or not (len(pieces.corners) or straight)
-    if not may_be_smooth and not (isinstance(corners, str) and corners == "free"):
-        return fit
-    smooth = _single(contour, tolerance, degree, effort)
-    # Of equals the single spline: it has no joints.
-    better = smooth.kept >= fit.kept and smooth.n_stored_points <= fit.n_stored_points
-    return smooth if better else fit
-
-
-def _single(contour: Contour, tolerance: float, degree: int, effort: Effort) -> Fit:
-    """The smallest single spline within a tolerance."""
-    found = fit_spline(contour, tolerance, degree=degree, effort=effort)
-    return verified_fit(
-        contour, found.curve, tolerance=tolerance, method="removal", distances=found.distances
-    )
+def _renumbered(
+    corners: Literal["auto", "free"] | ArrayLike | None, left_out: IntArray, n: int
+) -> Literal["auto", "free"] | ArrayLike | None:
+    """The corners among the points that stay."""
+    corners = checked_corners(corners, n)
+    if corners is None or isinstance(corners, str):
+        return corners
+    staying = np.setdiff1d(corners, left_out)
+    return staying - np.searchsorted(left_out, staying)
 
 
 def _estimated(
@@ -266,9 +262,10 @@ def _estimated(
     degree: int,
     corners: Literal["auto", "free"] | ArrayLike | None,
     form: Form,
+    ends: Ends,
     effort: Effort,
     method: str,
-    callback: Callback | None,
+    watch: Watch,
 ) -> Fit:
     """A curve for points of which nothing else is known.
 
@@ -276,7 +273,7 @@ def _estimated(
     as much of the points as one least-squares spline at the same price, or that spline. Points
     that neither comes near are no noisy curve after all, and are treated as clean ones.
     """
-    corners = _checked_corners(corners, len(contour))
+    corners = checked_corners(corners, len(contour))
     frame = WorkingFrame.of(contour)
     ordered = Contour.silently(
         contour.points[frame.order], contour.closed, accuracy=contour.accuracy
@@ -298,15 +295,16 @@ def _estimated(
                     contour, spline, tolerance=None, method="estimation", sections=pieces
                 )
         if smooth.farthest <= FARTHEST * shown.band:
-            fit = _finished(ordered, start, method, None, callback)
+            fit = _finished(ordered, start, method, None, watch)
             spline, parameters = fit.spline, fit.parameters[frame.place][contour.source]
             if frame.reversed:
                 spline, parameters = reversed_curve(spline), 1.0 - parameters
             return replace(fit, contour=contour, spline=spline, parameters=parameters)
-    fit = _within(contour, shown.band, degree, corners, form, effort)
-    return verified_fit(
+    fit = fit_within(contour, shown.band, degree, corners, form, ends, effort, watch)
+    found = verified_fit(
         contour, fit.spline, tolerance=None, method=fit.method, sections=fit.sections
     )
+    return replace(found, status=watch.verdict(found.status), history=fit.history)
 
 
 def _finished(
@@ -314,10 +312,10 @@ def _finished(
     start: Balanced,
     method: str,
     weights: ArrayLike | None,
-    callback: Callback | None,
+    watch: Watch,
 ) -> Fit:
     """Least squares to the end from a start whose size was chosen, its ends free to leave noise."""
-    return optimize(
+    fit = optimize(
         contour,
         start,
         method,
@@ -325,19 +323,14 @@ def _finished(
         ends=None if contour.closed else "fitted",
         stray_weight=STRAY_WEIGHT,
         limits=FINAL_LIMITS,
-        callback=callback,
+        callback=watch.iterated,
     )
+    return _in_time(fit, watch)
 
 
-def _checked_corners(
-    corners: Literal["auto", "free"] | ArrayLike | None, n: int
-) -> Literal["auto", "free"] | ArrayLike | None:
-    if corners is None or (isinstance(corners, str) and corners in ("auto", "free")):
-        return corners
-    message = f"corners must be 'auto', 'free', None or indices below {n}, got {corners!r}"
-    if isinstance(corners, str):
-        raise InvalidInputError(message)
-    given = float_array(corners, "corners").ravel()
-    if (given != np.floor(given)).any() or (given < 0).any() or (given >= n).any():
-        raise InvalidInputError(message)
-    return np.unique(given.astype(np.int64))
+def _in_time(fit: Fit, watch: Watch) -> Fit:
+    """The fit, saying so if the time limit ended it."""
+    if watch.ended_as != Status.BUDGET:
+        return fit
+    found = f"data to curve {fit.max_distance:.6g}, both ways {fit.hausdorff_distance:.6g}"
+    return replace(fit, status=watch.verdict(Status.BUDGET.saying(found)))

@@ -9,7 +9,8 @@ import numpy as np
 from shapespline.contour import Contour, Shape
 from shapespline.drawing import Drawing
 from shapespline.errors import InvalidInputError
-from shapespline.fitting import Effort, Form, fit_curve, tolerance_length
+from shapespline.fitting import fit_curve
+from shapespline.tolerance import Effort, Ends, Form, tolerance_length
 
 if TYPE_CHECKING:
     from shapespline.optimization import Callback
@@ -26,6 +27,9 @@ def fit_shape(
     effort: Effort = "balanced",
     method: str = "levenberg-marquardt",
     callback: Callback | None = None,
+    time_limit: float | None = None,
+    ends: Ends = "free",
+    outliers: bool = False,
 ) -> Drawing:
     """Fit a B-spline curve to each contour of a shape.
 
@@ -36,8 +40,8 @@ def fit_shape(
         Data units, or a part of the box diagonal of the whole shape, such as ``"0.1%"``.
     n_control_points : int, optional
         Number of control points of each curve; chosen for each contour when neither is given.
-    degree, corners, form, effort, method, callback
-        See `fit_curve`.
+    degree, corners, form, effort, method, callback, time_limit, ends, outliers
+        See `fit_curve`; the limit is that of each contour.
 
     Returns
     -------
@@ -78,6 +82,9 @@ def fit_shape(
                 effort=effort,
                 method=method,
                 callback=callback,
+                time_limit=time_limit,
+                ends=ends,
+                outliers=outliers,
             )
         except InvalidInputError as error:
             if len(shape) == 1:

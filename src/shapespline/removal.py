@@ -20,10 +20,9 @@ from shapespline.distance import Distances, two_sided_distance
 from shapespline.errors import InvalidInputError
 from shapespline.frame import WorkingFrame
 from shapespline.knots import check_degree, periodic_knots
+from shapespline.progress import Watch
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from shapespline.contour import Contour
 
 # Box diagonal that the gap limits refer to.
@@ -107,8 +106,6 @@ class SplineResult:
         Of the exported curve, both ways, certified.
     rule : RuleReport
         Of the exported curve.
-    cancelled : bool
-        Whether the callback stopped the search; the curve is the last one found.
     counts : dict
         Ranks, trials, removals and misses of the search.
     """
@@ -117,7 +114,6 @@ class SplineResult:
     tolerance: float
     distances: Distances
     rule: RuleReport
-    cancelled: bool
     counts: dict[str, int]
 
     @property
@@ -138,7 +134,7 @@ def fit_spline(
     degree: int = 3,
     effort: str = "balanced",
     product_rule: bool = True,
-    callback: Callable[[str, int], bool] | None = None,
+    watch: Watch | None = None,
 ) -> SplineResult:
     """One B-spline with few control points within a tolerance of the data, both ways.
 
@@ -156,9 +152,8 @@ def fit_spline(
     product_rule : bool
         Keep knot gaps within a factor of 1000, speed above 1/20 of its median and self-crossings
         to those of the data.
-    callback : callable, optional
-        Called with the name of each stage and the number of control points before it; the search
-        ends when it returns true.
+    watch : Watch, optional
+        Hears of the progress and may end the search; the curve is then the last one found.
 
     Returns
     -------
@@ -190,30 +185,30 @@ def fit_spline(
         raise InvalidInputError(f"effort must be one of {', '.join(LEVELS)}, got {effort!r}")
     if not (np.isfinite(tolerance) and tolerance > 0):
         raise InvalidInputError(f"tolerance must be a positive number, got {tolerance!r}")
+    watch = Watch() if watch is None else watch
     frame = WorkingFrame.of(contour)
     results: list[SplineResult] = []
     part, from_polyline = 1.0, False
     for _ in range(ATTEMPTS):
-        search, cancelled = _search(
+        search = _search(
             frame,
             part * tolerance,
             degree,
             LEVELS[effort],
             product_rule,
             from_polyline,
-            callback,
+            watch,
         )
-        curve = _exported(search, frame, degree)
+        curve = _exported(search, frame, contour, degree)
         result = SplineResult(
             curve,
             tolerance,
             two_sided_distance(curve, contour),
             rule_report(curve, contour),
-            cancelled,
             search.counts(),
         )
         results.append(result)
-        if cancelled or (result.kept and (result.rule.kept or not product_rule)):
+        if watch.ended_as or (result.kept and (result.rule.kept or not product_rule)):
             break
         if not result.kept:
             part *= TIGHTER
@@ -236,9 +231,9 @@ def _search(
     level: _Level,
     product_rule: bool,
     from_polyline: bool,
-    callback: Callable[[str, int], bool] | None,
-) -> tuple[_kernels.RemovalSearch, bool]:
-    """The stages of one search; also whether the callback ended it."""
+    watch: Watch,
+) -> _kernels.RemovalSearch:
+    """The stages of one search, as many as the watch allows."""
     scaled = tolerance * frame.scale
     unit = frame.contour.box_diagonal / DIAGONAL
     low, high = (unit * gap for gap in LEAST_GAP)
@@ -262,28 +257,34 @@ def _search(
         SAMPLES_PER_SPAN,
         SAMPLE_WEIGHT,
         level.hope,
+        watch.ends,
     )
-    if callback is not None and callback("remove", search.n_points()):
-        return search, True
-    search.remove_cheapest(_RANK, level.remove, MOST_TRIALS)
+    if watch.stage(search.n_points()):
+        return search
+    search.remove_cheapest(_RANK, level.remove, MOST_TRIALS, watch.ends)
     for _ in range(level.passes):
-        if callback is not None and callback("insist", search.n_points()):
-            return search, True
-        if search.remove_stubborn(_INSIST, level.spreads) == 0:
+        if watch.stage(search.n_points()):
             break
-    return search, False
+        if search.remove_stubborn(_INSIST, level.spreads, watch.ends) == 0:
+            break
+    return search
 
 
-def _exported(search: _kernels.RemovalSearch, frame: WorkingFrame, degree: int) -> BSplineCurve:
+def _exported(
+    search: _kernels.RemovalSearch, frame: WorkingFrame, contour: Contour, degree: int
+) -> BSplineCurve:
     """The curve over [0, 1] in data units; the seam of a periodic one is a simple knot."""
     gap_list, coordinates = search.curve()
     gaps = np.array(gap_list)
     points = np.array(coordinates).reshape(-1, 2)
-    if not frame.contour.closed:
+    if not contour.closed:
         knots = np.concatenate([[0.0], np.cumsum(gaps)])
         knots /= knots[-1]
         knots[len(points) :] = 1.0  # rounding
-        return frame.restored_curve(BSplineCurve(knots, points, degree))
+        restored = frame.restored_curve(BSplineCurve(knots, points, degree))
+        points = restored.control_points.copy()
+        points[[0, -1]] = contour.points[[0, -1]]  # but for the rounding of the frame they are
+        return BSplineCurve(restored.knots, points, degree)
     simple = (gaps > 0) & (np.roll(gaps, 1) > 0)
     seam = int(np.argmax(simple)) if simple.any() else int(np.argmax(gaps > 0))
     period = np.concatenate([[0.0], np.cumsum(np.roll(gaps, -seam))])

@@ -9,7 +9,7 @@ kernel call; this module decides what it may do, and verifies what it did.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -23,9 +23,10 @@ from shapespline.frame import WorkingFrame
 from shapespline.joining import joined, turn_between
 from shapespline.knots import check_degree
 from shapespline.nodes import aligned
+from shapespline.progress import Watch
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from shapespline.contour import Contour
     from shapespline.curve import BSplineCurve
@@ -129,6 +130,8 @@ def fit_pieces(
     corners: Literal["auto", "free"] | ArrayLike | None = "auto",
     degree: int = 3,
     effort: Effort = "balanced",
+    ends_fixed: bool = False,
+    watch: Watch | None = None,
 ) -> PiecesResult:
     """Fit lines, Beziers and small splines to a contour, as few points as the tolerance allows.
 
@@ -144,6 +147,10 @@ def fit_pieces(
         Of ``spline``, 1 to 9; pieces have at most this degree, and at most 3.
     effort : {"fast", "balanced", "smallest"}
         How many candidate nodes, moves and runs are tried.
+    ends_fixed : bool
+        Whether the curve of an open contour begins and ends in its first and last point, exactly.
+    watch : Watch, optional
+        Hears of the progress and may end the search; what was reached is returned, verified.
 
     Returns
     -------
@@ -180,23 +187,28 @@ def fit_pieces(
     aim = tolerance * frame.scale
     chosen = _chosen_corners(work, aim, corners, frame)
     free = isinstance(corners, str) and corners == "free"
-    task = _Task(work, min(degree, SECTION_DEGREE), not free, not free, chosen)
+    watch = Watch() if watch is None else watch
+    task = _Task(work, min(degree, SECTION_DEGREE), not free, not free, chosen, ends_fixed, watch)
     # Free of rules, sharp corners are still often the cheapest: both are tried.
     tasks = [task, task._replace(keep_corners=True)] if free and len(chosen) else [task]
+    results = []
     for part in AIMS:
-        runs = [task.run(part * aim, search) for search in SEARCHES[effort] for task in tasks]
-        best = min(runs, key=lambda pieces: sum(len(p.control_points) - 1 for p in pieces))
-        result = _verified(frame, best, contour, tolerance, degree)
-        if result.kept:
+        best = _smallest_run(tasks, part * aim, SEARCHES[effort], watch)
+        if best:
+            results.append(_verified(frame, best, contour, tolerance, degree, ends_fixed))
+        if watch.ended_as or results[-1].kept:
             break
-    if result.kept and result.n_stored_points <= ROUGH_PART * len(contour):
-        return result
+    if results and results[-1].kept and results[-1].n_stored_points <= ROUGH_PART * len(contour):
+        return results[-1]
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
-    lines = _Task(work, 1, False, False, chosen).run(
+    lines = _Task(work, 1, False, False, chosen, ends_fixed, Watch()).run(
         AIMS[0] * aim, SEARCHES["fast"][0]._replace(stride=1)
     )
-    others = (_verified(frame, p, contour, tolerance, degree) for p in (lines, _through_all(work)))
-    return min((result, *others), key=lambda found: (not found.kept, found.n_stored_points))
+    others = (
+        _verified(frame, p, contour, tolerance, degree, ends_fixed)
+        for p in (lines, _through_all(work))
+    )
+    return min((*results, *others), key=lambda found: (not found.kept, found.n_stored_points))
 
 
 def fit_observed(
@@ -228,9 +240,27 @@ def fit_observed(
     """
     kept = np.empty(0, dtype=np.int64) if corners is None else corners
     faithful = corners is not None
-    task = _Task(outline, min(degree, SECTION_DEGREE), faithful, faithful, kept)
+    task = _Task(outline, min(degree, SECTION_DEGREE), faithful, faithful, kept, False, Watch())
     runs = [task.run(tolerance, search, observed, noise) for search in SEARCHES[effort]]
     return min(runs, key=lambda pieces: sum(len(p.control_points) - 1 for p in pieces))
+
+
+def _smallest_run(
+    tasks: Sequence[_Task], aim: float, searches: Sequence[Search], watch: Watch
+) -> tuple[Piece, ...]:
+    """The best of all searches that were run before the watch ended them, empty if none was."""
+    best: tuple[Piece, ...] = ()
+    for search, task in product(searches, tasks):
+        if watch.stage(_size(best)):
+            break
+        found = task.run(aim, search)
+        if found and (not best or _size(found) < _size(best)):
+            best = found
+    return best
+
+
+def _size(pieces: Sequence[Piece]) -> int:
+    return sum(len(piece.control_points) - 1 for piece in pieces)
 
 
 def _chosen_corners(
@@ -266,6 +296,8 @@ class _Task(NamedTuple):
     keep_corners: bool
     smooth: bool
     corners: IntArray
+    ends_fixed: bool
+    watch: Watch
 
     def run(
         self,
@@ -274,7 +306,10 @@ class _Task(NamedTuple):
         observed: FloatArray | None = None,
         noise: float = 0.0,
     ) -> tuple[Piece, ...]:
-        """One run of the kernel; in the end a least-squares fit to what was observed."""
+        """One run of the kernel, in the end a least-squares fit to what was observed.
+
+        No pieces if it was ended before there were any.
+        """
         n = len(self.contour)
         marked = np.zeros(n, dtype=np.int64)
         marked[self.corners] = 1
@@ -288,14 +323,16 @@ class _Task(NamedTuple):
             tolerance,
             self.largest_degree,
             self.smooth,
+            self.ends_fixed,
             RELEASE * LEAST_TURN,
             search.passes,
             search.widest,
+            self.watch.ends,
             observed,
             noise,
         )
         pieces = _unpacked(degrees, counts, np.array(knots), np.array(coordinates))
-        if not self.smooth:
+        if not (self.smooth and pieces):
             return pieces
         largest_move = LARGEST_MOVE * tolerance if observed is None else OBSERVED_MOVE * noise
         return aligned(pieces, largest_move, closed=self.contour.closed)
@@ -334,10 +371,18 @@ def _without_specks(pieces: list[Piece]) -> tuple[Piece, ...]:
 
 
 def _verified(
-    frame: WorkingFrame, found: tuple[Piece, ...], contour: Contour, tolerance: float, degree: int
+    frame: WorkingFrame,
+    found: tuple[Piece, ...],
+    contour: Contour,
+    tolerance: float,
+    degree: int,
+    ends_fixed: bool,
 ) -> PiecesResult:
     """The result in the data's unit with its distances measured."""
     pieces = frame.restored(found)
+    if ends_fixed and not contour.closed:  # but for the rounding of the frame they are
+        pieces[0].control_points[0] = contour.points[0]
+        pieces[-1].control_points[-1] = contour.points[-1]
     spline = joined(pieces, degree)
     sharp = [
         pieces[i].control_points[0]

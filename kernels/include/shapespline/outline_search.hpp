@@ -17,14 +17,19 @@ struct OutlineSearch {
     std::vector<NodeKind> nodes;  // of each candidate
     double tolerance;
     int largest_degree;
-    bool smooth;  // joints that are no corners are tangent
+    bool smooth;      // joints that are no corners are tangent
+    bool ends_fixed;  // an open outline begins and ends in its first and last datum
     double least_corner;  // radians: a corner that the fit turns less is given up
     ReductionLimits reduction;
+    Interruption &interruption;
 
+    // Ended before there is a path: no sections.
     std::vector<Section> run() const {
-        SectionRing ring(sections_of_best_path(), period);
+        std::vector<Section> path = sections_of_best_path();
+        if (path.empty()) return path;
+        SectionRing ring(std::move(path), period, ends_fixed);
         JointSmoother smoother(data, ring, tolerance, largest_degree);
-        Reduction reducer(data, ring, reduction);
+        Reduction reducer(data, ring, reduction, interruption);
         if (smooth) smoother.run();
         reducer.run();
         for (int round = 0; round < 2 && release_corners(ring); ++round) reducer.run();
@@ -37,6 +42,7 @@ struct OutlineSearch {
 
     std::vector<Section> sections_of_best_path() const {
         std::vector<Reach> reaches = all_reaches();
+        if (interruption.ended()) return {};
         std::map<std::array<std::size_t, 3>, MinimaxResult> fits;
         std::vector<Section> sections;
         for (int trial = 0; trial < kPathTrials; ++trial) {
@@ -66,7 +72,7 @@ struct OutlineSearch {
         const ReachSearch search(data, candidates, tolerance, largest_degree);
         std::vector<Reach> reaches;
         for (int cost = 1; cost <= largest_degree; ++cost)
-            reaches.push_back(search.run(cost, barrier));
+            reaches.push_back(search.run(cost, barrier, interruption));
         for (Reach &reach : reaches)
             for (std::size_t k = 0; k + 1 < n; ++k)
                 reach.last[k] = std::min(reach.last[k], barrier[k]);
@@ -179,11 +185,14 @@ class LaidOutOutline {
         if (closed) add(once[0] + 3 * n_);
     }
 
-    std::vector<Section> search(double tolerance, int largest_degree, bool smooth,
-                                double least_corner, int passes, int widest) const {
+    std::vector<Section> search(double tolerance, int largest_degree, bool smooth, bool ends_fixed,
+                                double least_corner, int passes, int widest,
+                                Interruption &interruption) const {
         return OutlineSearch{data_,     closed_ ? n_ : 0, candidates_, nodes_,
-                             tolerance, largest_degree,   smooth,      least_corner,
-                             {tolerance, largest_degree, smooth, passes, widest}}
+                             tolerance, largest_degree,   smooth,      ends_fixed,
+                             least_corner,
+                             {tolerance, largest_degree, smooth, passes, widest},
+                             interruption}
             .run();
     }
 

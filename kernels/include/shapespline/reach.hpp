@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "shapespline/interruption.hpp"
 #include "shapespline/minimax.hpp"
 
 namespace shapespline {
@@ -32,11 +33,14 @@ class ReachSearch {
 
     // Feasibility is nearly monotone: what starts later reaches at least as far. So the search
     // starts at the last answer, gallops and bisects: about 1.5 fits a candidate.
-    Reach run(int cost, const std::vector<std::size_t> &barrier) const {
+    // Ended early, what is left reaches as far as anything might.
+    Reach run(int cost, const std::vector<std::size_t> &barrier,
+              Interruption &interruption) const {
         const std::size_t n = candidates_.at.size(), n_starts = candidates_.n_starts;
         Reach reach{cost, std::vector<std::size_t>(n, n - 1)};
         std::size_t last = 1;
         for (std::size_t k = 0; k < n_starts; ++k) {
+            if (interruption.ends([] { return 0; })) break;
             last = std::max(last, k + 1);
             // A section of a whole lap would begin and end in one node, a line even without length.
             const std::size_t lap = candidates_.closed ? n_starts - 1 : n_starts;

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "shapespline/interruption.hpp"
 #include "shapespline/section_merge.hpp"
 #include "shapespline/section_ring.hpp"
 
@@ -23,16 +24,18 @@ struct ReductionLimits {
 
 class Reduction {
   public:
-    Reduction(std::span<const Vec2> data, SectionRing &ring, const ReductionLimits &limits)
-        : data_(data), ring_(ring), limits_(limits) {}
+    Reduction(std::span<const Vec2> data, SectionRing &ring, const ReductionLimits &limits,
+              Interruption &interruption)
+        : data_(data), ring_(ring), limits_(limits), interruption_(interruption) {}
 
-    // Moves until none helps any more.
+    // Moves until none helps any more, or the caller has had enough.
     void run() {
         failed_.clear();
         for (int pass = 0; pass < limits_.passes; ++pass) {
             bool changed = false;
             for (int side = 1; side <= limits_.widest; ++side)
                 for (long i = 0; i < ring_.size();) {
+                    if (interruption_.ends([&] { return n_points(); })) return;
                     const bool moved = demote(i, side) || merge(i, side) || squeeze(i, side);
                     changed |= moved;
                     if (!moved) ++i;
@@ -43,6 +46,8 @@ class Reduction {
 
   private:
     static constexpr int kRounds = 25, kStartRounds = 8;
+
+    long n_points() const { return ring_.cost() + (ring_.closed() ? 0 : 1); }
 
     // One section of one point less.
     bool demote(long i, int side) {
@@ -157,6 +162,7 @@ class Reduction {
     std::span<const Vec2> data_;
     SectionRing &ring_;
     ReductionLimits limits_;
+    Interruption &interruption_;
     std::set<std::vector<Index>> failed_;
 };
 

@@ -40,7 +40,9 @@ struct RemovalCounts {
 template <int Degree>
 class KnotRemoval {
   public:
-    KnotRemoval(std::span<const Vec2> data, bool closed, const RemovalSettings &settings)
+    // Ended early, it begins with the data polyline.
+    KnotRemoval(std::span<const Vec2> data, bool closed, const RemovalSettings &settings,
+                Interruption &interruption)
         : settings_(settings),
           data_(arc_polyline(data, closed)),
           search_(search_polyline(data_, kThinning * settings.tolerance,
@@ -48,7 +50,7 @@ class KnotRemoval {
         std::vector<Vec2> polyline = search_.points;
         if (closed) polyline.push_back(polyline.front());
         n_data_crossings_ = count_crossings(std::span<const Vec2>(polyline));
-        if (settings.start_from_polyline || !start_by_insertion())
+        if (settings.start_from_polyline || !start_by_insertion(interruption))
             state_ = polyline_spline<Degree>(search_, kPolylinePart * settings.tolerance);
         const StateCurves<Degree> all(state_);
         Box everywhere;
@@ -68,18 +70,20 @@ class KnotRemoval {
     // Removes the cheapest knot first. A rank is renewed when the knot comes up after a neighbour
     // went, unless its removal was feasible at that; a knot whose removal failed comes back when a neighbour has gone. Returns the number
     // of knots that were removed; at most `most` trials are made.
-    int remove_cheapest(const Effort &rank, const Effort &effort, long most) {
+    int remove_cheapest(const Effort &rank, const Effort &effort, long most,
+                        Interruption &interruption) {
         const long before = counts_.accepted;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
         std::vector<Standing> standing(1 + *std::max_element(state_.knot_ids.begin(),
                                                              state_.knot_ids.end()));
         for (std::size_t r = 0; r < state_.knot_ids.size(); ++r) {
+            if (ends(interruption)) return 0;
             if (!state_.removable(static_cast<int>(r))) continue;
             const int id = state_.knot_ids[r];
             queue.push({cost(static_cast<int>(r), rank), id});
             standing[id] = {true, false};
         }
-        for (long trials = 0; !queue.empty() && trials < most;) {
+        for (long trials = 0; !queue.empty() && trials < most && !ends(interruption);) {
             const auto [cost_before, id] = queue.top();
             queue.pop();
             const int r = state_.knot_with_id(id);
@@ -104,16 +108,23 @@ class KnotRemoval {
 
     // One harder attempt at every knot: the hole that it leaves as it is, then spread over
     // neighbouring gaps. Returns the number of knots that were removed.
-    int remove_stubborn(const Effort &effort, std::span<const int> spreads) {
+    int remove_stubborn(const Effort &effort, std::span<const int> spreads,
+                        Interruption &interruption) {
         const long before = counts_.accepted;
         std::vector<int> ids;
         for (std::size_t r = 0; r < state_.knot_ids.size(); ++r) ids.push_back(state_.knot_ids[r]);
-        for (const int id : ids)
+        for (const int id : ids) {
+            if (ends(interruption)) break;
             attempt_stubborn(id, effort, spreads);
+        }
         return static_cast<int>(counts_.accepted - before);
     }
 
   private:
+    bool ends(Interruption &interruption) const {
+        return interruption.ends([&] { return state_.n_points(); });
+    }
+
     // Not again where nothing near has changed since it failed.
     void attempt_stubborn(int id, const Effort &effort, std::span<const int> spreads) {
         if (const auto failed = failed_at_.find(id);
@@ -158,12 +169,12 @@ class KnotRemoval {
 
     // Where the first knots fall decides whether sharp corners are met; another number of them often
     // cures what more insertions cannot.
-    bool start_by_insertion() {
+    bool start_by_insertion(Interruption &interruption) {
         for (const int count : {24, 37, 56})
-            if (start_by_insertion(std::max(count, 3 * Degree + 4))) return true;
+            if (start_by_insertion(std::max(count, 3 * Degree + 4), interruption)) return true;
         return false;
     }
-    bool start_by_insertion(int count) {
+    bool start_by_insertion(int count, Interruption &interruption) {
         const int n = search_.size();
         count = std::min(n, count);
         std::vector<int> at;
@@ -173,7 +184,7 @@ class KnotRemoval {
         state_ = chord_length_spline<Degree>(search_, at);
         KnotInsertion<Degree> insertion(search_.points, settings_.fit);
         for (double enough = settings_.fit.enough; enough > kLeastEnough; enough *= kTighter) {
-            if (!insertion.run(state_, enough, n)) return false;
+            if (!insertion.run(state_, enough, n, interruption)) return false;
             if (is_proven(state_)) return true;
         }
         return false;

@@ -20,18 +20,20 @@ class RemovalSearch {
     using CurveArrays = std::tuple<std::vector<double>, std::vector<double>>;
 
     RemovalSearch(std::span<const Vec2> data, bool closed, int degree,
-                  const RemovalSettings &settings)
+                  const RemovalSettings &settings, Interruption &interruption)
         : data_(data.begin(), data.end()) {
         dispatch_degree(degree, [&]<int Degree>() {
-            search_ = std::make_unique<Search<Degree>>(data_, closed, settings);
+            search_ = std::make_unique<Search<Degree>>(data_, closed, settings, interruption);
         });
     }
 
-    int remove_cheapest(const EffortTuple &rank, const EffortTuple &effort, long most) {
-        return search_->remove_cheapest(unpack(rank), unpack(effort), most);
+    int remove_cheapest(const EffortTuple &rank, const EffortTuple &effort, long most,
+                        Interruption &interruption) {
+        return search_->remove_cheapest(unpack(rank), unpack(effort), most, interruption);
     }
-    int remove_stubborn(const EffortTuple &effort, const std::vector<int> &spreads) {
-        return search_->remove_stubborn(unpack(effort), spreads);
+    int remove_stubborn(const EffortTuple &effort, const std::vector<int> &spreads,
+                        Interruption &interruption) {
+        return search_->remove_stubborn(unpack(effort), spreads, interruption);
     }
     CurveArrays curve() const { return search_->curve(); }
     int n_points() const { return search_->n_points(); }
@@ -40,8 +42,10 @@ class RemovalSearch {
   private:
     struct AnyDegree {
         virtual ~AnyDegree() = default;
-        virtual int remove_cheapest(const Effort &rank, const Effort &effort, long most) = 0;
-        virtual int remove_stubborn(const Effort &effort, std::span<const int> spreads) = 0;
+        virtual int remove_cheapest(const Effort &rank, const Effort &effort, long most,
+                                    Interruption &interruption) = 0;
+        virtual int remove_stubborn(const Effort &effort, std::span<const int> spreads,
+                                    Interruption &interruption) = 0;
         virtual CurveArrays curve() const = 0;
         virtual int n_points() const = 0;
         virtual std::map<std::string, long> counts() = 0;
@@ -51,13 +55,16 @@ class RemovalSearch {
     struct Search : AnyDegree {
         KnotRemoval<Degree> removal;
 
-        Search(std::span<const Vec2> data, bool closed, const RemovalSettings &settings)
-            : removal(data, closed, settings) {}
-        int remove_cheapest(const Effort &rank, const Effort &effort, long most) override {
-            return removal.remove_cheapest(rank, effort, most);
+        Search(std::span<const Vec2> data, bool closed, const RemovalSettings &settings,
+               Interruption &interruption)
+            : removal(data, closed, settings, interruption) {}
+        int remove_cheapest(const Effort &rank, const Effort &effort, long most,
+                            Interruption &interruption) override {
+            return removal.remove_cheapest(rank, effort, most, interruption);
         }
-        int remove_stubborn(const Effort &effort, std::span<const int> spreads) override {
-            return removal.remove_stubborn(effort, spreads);
+        int remove_stubborn(const Effort &effort, std::span<const int> spreads,
+                            Interruption &interruption) override {
+            return removal.remove_stubborn(effort, spreads, interruption);
         }
         int n_points() const override { return removal.state().n_points(); }
         CurveArrays curve() const override {

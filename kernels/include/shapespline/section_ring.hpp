@@ -10,8 +10,8 @@ namespace shapespline {
 class SectionRing {
   public:
     // The period is the number of data of a closed outline, 0 for an open one.
-    SectionRing(std::vector<Section> sections, Index period)
-        : sections_(std::move(sections)), period_(period) {
+    SectionRing(std::vector<Section> sections, Index period, bool ends_fixed)
+        : sections_(std::move(sections)), period_(period), ends_fixed_(ends_fixed) {
         renumber();
     }
 
@@ -59,12 +59,12 @@ class SectionRing {
 
     // How a window that begins with section i, or ends before it, is held there.
     ChainEnd begin_of(long i) const {
-        if (!has(i - 1)) return {};
+        if (!has(i - 1)) return {ends_fixed_};
         if (!at(i).tangent) return {true};
         return {true, at(i - 1).points[at(i - 1).points.size() - 2]};
     }
     ChainEnd end_before(long i) const {
-        if (!has(i)) return {};
+        if (!has(i)) return {ends_fixed_};
         if (!at(i).tangent) return {true};
         return {true, at(i).points[1]};
     }
@@ -101,6 +101,7 @@ class SectionRing {
 
     std::vector<Section> sections_;
     Index period_;
+    bool ends_fixed_;
 };
 
 }  // namespace shapespline

@@ -73,7 +73,7 @@ inline std::vector<Section> fit_observed(std::span<const Vec2> observed, bool cl
     for (int lap = 0; lap < (closed ? 3 : 1); ++lap)
         data.insert(data.end(), observed.begin(), observed.end());
     if (closed) data.push_back(observed[0]);
-    SectionRing ring(std::move(sections), closed ? static_cast<Index>(observed.size()) : 0);
+    SectionRing ring(std::move(sections), closed ? static_cast<Index>(observed.size()) : 0, false);
     SectionSquares(data, ring, noise).run();
     return ring.sections();
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "shapespline/interruption.hpp"
 #include "shapespline/minimax_fit.hpp"
 #include "shapespline/search_polyline.hpp"
 
@@ -86,11 +87,13 @@ class KnotInsertion {
 
     // Fits all of the curve and halves the worse half of the spans that are farther than `enough`
     // tolerances away, until none is; false when that does not come about.
-    bool run(SplineState<Degree> &state, double enough, int most_points) {
+    bool run(SplineState<Degree> &state, double enough, int most_points,
+             Interruption &interruption) {
         limits_.enough = enough;
         int next_id = 1 + *std::max_element(state.knot_ids.begin(), state.knot_ids.end());
         const FitStage stage{1, kIterations, false, std::numeric_limits<double>::infinity()};
         for (int round = 0; round < kRounds; ++round) {
+            if (interruption.ends([] { return 0; })) return false;
             window_.open_whole(state, data_);
             const double largest = fit_.run(window_, limits_, {&stage, 1}, round == 0);
             window_.write_back(state);

@@ -275,7 +275,9 @@ def _fit(value: object, where: str) -> Fit:
             f"{where}.parameters must be one for each of {contour.n_given} points,"
             f" found {len(parameters)}"
         )
-    outliers = checked_indices(fields["outliers"], f"{where}.outliers", 0, contour.n_given)
+    listed = checked_list(fields["outliers"], f"{where}.outliers")
+    n_points = contour.n_given + len(listed)
+    outliers = checked_indices(listed, f"{where}.outliers", 0, n_points)
     distances = {name: checked_number(fields[name], f"{where}.{name}") for name in DISTANCES}
     return Fit(
         spline=_built(_spline, fields["spline"], f"{where}.spline"),
