@@ -404,6 +404,25 @@ def test_trace_and_convert(shapespline, tmp_path):
     assert (tmp_path / "leaf.svg").read_text().count("<path") == 1
 
 
+def test_ends_outliers_and_time(shapespline, tmp_path):
+    outline, output = tmp_path / "wave.csv", tmp_path / "wave.json"
+    x = np.linspace(0, 10, 200)
+    points = np.column_stack([x, np.sin(x)])
+    points[77] = (5, 9)
+    np.savetxt(outline, points, delimiter=",")
+    arguments = ("fit", outline, "--open", "-t", 0.05, "-o", output, "--ends", "fixed")
+    code, out, _ = shapespline(*arguments, "--outliers", "--json")
+    assert code == 0
+    assert json.loads(out)["curves"][0]["outliers"] == 1
+    (fit,) = ss.read(output).fits
+    assert fit.outliers.tolist() == [77]
+    np.testing.assert_array_equal(fit.control_points[[0, -1]], points[[0, -1]])
+    code, _, err = shapespline(*arguments, "--time-limit", 1e-9)
+    assert code == 0
+    assert "the time limit of 1e-09 s ran out" in err
+    assert shapespline(*arguments, "--time-limit", -1)[0] == 1
+
+
 def test_no_argument_shows_the_help(shapespline):
     code, out, err = shapespline()
     assert (code, err) == (0, "")

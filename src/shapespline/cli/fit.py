@@ -98,16 +98,27 @@ def fit(
     degree: options.Degree = 3,
     corners: Annotated[
         Literal["auto", "free", "none"],
-        typer.Option(help="With a tolerance: keep corners, be free to round them, or know none."),
+        typer.Option(help="Keep corners, be free to round them, or know none."),
     ] = "auto",
     form: Annotated[
         Literal["pieces", "spline"],
-        typer.Option(help="With a tolerance: lines, Beziers and splines, or one spline."),
+        typer.Option(help="Lines, Beziers and splines, or one spline."),
     ] = "pieces",
     effort: Annotated[
         Literal["fast", "balanced", "smallest"],
-        typer.Option(help="With a tolerance: how long to search for a smaller curve."),
+        typer.Option(help="How long to search for a smaller curve."),
     ] = "balanced",
+    ends: Annotated[
+        Literal["free", "fixed"],
+        typer.Option(help="Of open curves: fixed ends are the first and last point, exactly."),
+    ] = "free",
+    outliers: Annotated[
+        bool, typer.Option("--outliers", help="Leave out points that jump off the path and back.")
+    ] = False,
+    time_limit: Annotated[
+        float | None,
+        typer.Option(help="Seconds for each curve; the best one so far is written after them."),
+    ] = None,
     plot: Annotated[
         Path | None,
         typer.Option(
@@ -135,6 +146,9 @@ def fit(
         "corners": None if corners == "none" else corners,
         "form": form,
         "effort": effort,
+        "ends": ends,
+        "outliers": outliers,
+        "time_limit": time_limit,
     }
 
     def check(found: Sequence[Path]) -> None:

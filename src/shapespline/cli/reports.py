@@ -68,6 +68,7 @@ def _fit_record(fit: Fit) -> dict[str, Any]:
         "kept": fit.kept,
         "status": fit.status.name,
         "sentence": fit.status.value,
+        "outliers": len(fit.outliers),
     }
 
 
@@ -84,7 +85,9 @@ def drawing_text(output: str, drawing: Drawing, seconds: float) -> str:
 
 
 def drawing_remarks(drawing: Drawing) -> list[str]:
-    """A line for every fit that keeps less than was asked."""
+    """A line for every fit that keeps less than was asked, or was ended."""
     return [
-        f"curve {index}: {fit.status.value}" for index, fit in enumerate(drawing) if not fit.kept
+        f"curve {index}: {fit.status.value}"
+        for index, fit in enumerate(drawing)
+        if fit.status.name != "KEPT"
     ]
