@@ -16,6 +16,7 @@ from shapespline.balance import Balanced, balanced_start
 from shapespline.contour import Contour
 from shapespline.corners import find_corners
 from shapespline.distance import two_sided_distance
+from shapespline.errors import DegenerateContourError
 from shapespline.frame import WorkingFrame
 from shapespline.joining import joined, turn_between
 from shapespline.noise import noise_level
@@ -238,8 +239,10 @@ def estimated_pieces(
     corners: Literal["auto", "free"] | ArrayLike | None = "auto",
     degree: int = 3,
     effort: Effort = "balanced",
-) -> tuple[tuple[Piece, ...], Evidence]:
+) -> tuple[tuple[Piece, ...], Evidence] | None:
     """Lines, Beziers and small splines behind noisy points, and what the points say of them.
+
+    None where there is noise alone: what is left of it, smoothed, is a single point.
 
     Parameters
     ----------
@@ -262,7 +265,10 @@ def estimated_pieces(
     else:
         at = np.unique(frame.place[np.asarray(corners, dtype=np.int64)])
     points, size = runs.joined(at)
-    outline = Contour.silently(points, work.closed)
+    try:
+        outline = Contour.silently(points, work.closed)
+    except DegenerateContourError:
+        return None
     observed = work.points[np.unique(outline.source, return_index=True)[1]]
     error = noise * float(np.sqrt(size / len(work)))
     free = isinstance(corners, str) and corners == "free"

@@ -282,10 +282,13 @@ def _estimated(
     if not shown.clean:
         start = smooth_start(ordered, degree)
         smooth = Evidence.of_spline(start, ordered, shown.noise)
+        found = None
         if form == "pieces":
-            pieces, said = estimated_pieces(
+            found = estimated_pieces(
                 contour, shown.noise, corners=corners, degree=degree, effort=effort
             )
+        if found is not None:
+            pieces, said = found
             given = not isinstance(corners, str | None)
             one_run = len(pieces) == 1 and pieces[0].kind != "line"
             chosen = given or (said.preferred_to(smooth) and not one_run)
@@ -301,10 +304,10 @@ def _estimated(
                 spline, parameters = reversed_curve(spline), 1.0 - parameters
             return replace(fit, contour=contour, spline=spline, parameters=parameters)
     fit = fit_within(contour, shown.band, degree, corners, form, ends, effort, watch)
-    found = verified_fit(
+    kept = verified_fit(
         contour, fit.spline, tolerance=None, method=fit.method, sections=fit.sections
     )
-    return replace(found, status=watch.verdict(found.status), history=fit.history)
+    return replace(kept, status=watch.verdict(kept.status), history=fit.history)
 
 
 def _finished(
