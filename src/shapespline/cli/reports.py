@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -43,7 +44,8 @@ class Report:
         elif self.text:
             print(self.text, file=stream)
         for message in [*self.remarks, *([self.error] if self.error is not None else [])]:
-            name = f"{self.source}: " if named and self.source not in message else ""
+            known = Path(self.source).name in message
+            name = f"{self.source}: " if named and not known else ""
             say(f"{name}{message}")
 
 

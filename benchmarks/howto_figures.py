@@ -1,0 +1,150 @@
+"""Runs the commands of docs/howto and draws what other programs read in the files: `make figures`.
+
+python -m benchmarks.howto_figures
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import ezdxf
+import numpy as np
+import svgelements
+from matplotlib.figure import Figure
+from PIL import Image
+
+import shapespline as ss
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+ROOT = Path(__file__).parent.parent
+DATA = ROOT / "examples" / "data"
+TARGET = ROOT / "docs" / "figures" / "howto"
+BLUE, ORANGE, GREY = "#0072B2", "#D55E00", "#8A8A8A"
+
+
+def run(folder: Path, *arguments: str) -> str:
+    """The output of a shapespline command in a folder."""
+    command = [sys.executable, "-m", "shapespline", *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    print("$ shapespline", *arguments)
+    print(done.stdout + done.stderr, end="")
+    return done.stdout
+
+
+def canvas(count: int) -> tuple[Figure, list[Axes]]:
+    figure = Figure(figsize=(6 * count, 5.6), layout="constrained")
+    axes = np.atleast_1d(figure.subplots(1, count)).tolist()
+    for one in axes:
+        one.set_aspect("equal")
+        one.axis("off")
+    return figure, axes
+
+
+def save(figure: Figure, name: str) -> None:
+    TARGET.mkdir(parents=True, exist_ok=True)
+    path = TARGET / f"{name}.png"
+    figure.savefig(path, dpi=80)
+    Image.open(path).convert("P", palette=Image.Palette.ADAPTIVE, colors=64).save(
+        path, optimize=True
+    )
+
+
+def show_picture(axes: Axes, path: Path) -> None:
+    picture = Image.open(path).convert("L")
+    axes.imshow(picture, cmap="gray", extent=(0, picture.width, 0, picture.height))
+
+
+def logo_to_dxf(folder: Path) -> None:
+    """A logo, and what ezdxf reads in the two DXF files."""
+    source = DATA / "images" / "gameicons_jet-fighter_256.png"
+    (folder / "logo.png").write_bytes(source.read_bytes())
+    run(folder, "fit", "logo.png", "-o", "logo.dxf", "--dpi", "96", "--tolerance", "0.1")
+    run(folder, "fit", "logo.png", "-o", "arcs.dxf", "--dpi", "96", "--tolerance", "0.1", "--arcs")
+    figure, (left, middle, right) = canvas(3)
+    show_picture(left, folder / "logo.png")
+    left.set_title("logo.png")
+    for axes, name in ((middle, "logo.dxf"), (right, "arcs.dxf")):
+        document = ezdxf.readfile(folder / name)
+        kinds: dict[str, int] = {}
+        for entity in document.modelspace():
+            kinds[entity.dxftype()] = kinds.get(entity.dxftype(), 0) + 1
+            path = ezdxf.path.make_path(entity)
+            points = np.array([(p.x, p.y) for p in path.flattening(0.01)])
+            axes.plot(*points.T, color=BLUE, lw=1.2)
+            axes.plot(*points[[0, -1]].T, "o", color=ORANGE, ms=3)
+        errors = len(document.audit().errors)
+        said = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
+        axes.set_title(f"{name} read by ezdxf: {said}; {errors} errors")
+    save(figure, "logo_to_dxf")
+
+
+def leaf_to_step(folder: Path) -> None:
+    """A leaf, and the STEP file read by OpenCASCADE."""
+    source = DATA / "images" / "gameicons_oak-leaf_256.png"
+    (folder / "leaf.png").write_bytes(source.read_bytes())
+    run(folder, "fit", "leaf.png", "-o", "leaf.step", "--dpi", "150", "--contours", "longest")
+    (fit,) = ss.read(folder / "leaf.step")
+    figure, (left, right) = canvas(2)
+    show_picture(left, folder / "leaf.png")
+    left.set_title("leaf.png")
+    right.plot(*fit.spline(np.linspace(0, 1, 8000)).T, color=BLUE, lw=1.5)
+    ends = np.array([piece.control_points[0] for piece in fit.pieces])
+    right.plot(*ends.T, "o", color=ORANGE, ms=3)
+    right.set_title(f"leaf.step through OpenCASCADE: one closed wire, {len(fit.pieces)} edges")
+    save(figure, "leaf_to_step")
+
+
+def points_to_svg(folder: Path) -> None:
+    """Shuffled points, and the SVG file read by svgelements."""
+    points = np.loadtxt(DATA / "outlines" / "hand620_closed.csv", delimiter=",")
+    shuffled = np.random.default_rng(0).permutation(points)
+    np.savetxt(folder / "cloud.csv", shuffled, delimiter=",")
+    run(folder, "fit", "cloud.csv", "--unordered", "--tolerance", "0.2%", "-o", "cloud.svg")
+    figure, (left, middle, right) = canvas(3)
+    left.plot(*shuffled.T, color=GREY, lw=0.3)
+    left.set_title("cloud.csv, joined as the points stand in it")
+    middle.plot(*shuffled.T, ".", color=GREY, ms=3)
+    middle.set_title("its points")
+    for path in svgelements.SVG.parse(folder / "cloud.svg").elements(
+        lambda element: isinstance(element, svgelements.Path)
+    ):
+        samples = np.array([path.point(t) for t in np.linspace(0, 1, 1500)], dtype=complex)
+        right.plot(samples.real, -samples.imag, color=BLUE, lw=1.5)
+    right.set_title("cloud.svg read by svgelements")
+    save(figure, "points_to_svg")
+
+
+def folder_of_files(folder: Path) -> None:
+    """Mixed files, one of them broken, and every output."""
+    mixed = folder / "mixed"
+    mixed.mkdir()
+    for path in [*sorted((DATA / "images").glob("*_256.png"))[:4],
+                 *sorted((DATA / "outlines").glob("*_closed.csv"))[:3]]:  # fmt: skip
+        (mixed / path.name).write_bytes(path.read_bytes())
+    (mixed / "broken.csv").write_text("1,2\n3,x\n")
+    run(folder, "fit", "mixed", "-o", "out", "--format", "svg", "--tolerance", "0.3%", "-j", "2")
+    outputs = sorted((folder / "out").iterdir())
+    figure, axes = canvas(len(outputs))
+    for one, path in zip(axes, outputs, strict=True):
+        for fit in ss.read(path):
+            one.fill(*fit.spline(np.linspace(0, 1, 3000)).T, color=BLUE, alpha=0.5)
+        one.set_title(path.name, fontsize=8)
+    figure.set_size_inches(16, 3)
+    save(figure, "folder_of_files")
+
+
+def main() -> None:
+    """All of them, in a temporary folder."""
+    for page in (logo_to_dxf, leaf_to_step, points_to_svg, folder_of_files):
+        with tempfile.TemporaryDirectory() as folder:
+            page(Path(folder))
+
+
+if __name__ == "__main__":
+    main()
