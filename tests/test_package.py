@@ -26,7 +26,8 @@ TIERS = [
     {
         "distance", "corners", "initial", "residuals", "solvers", "trace", "channels",
         "ordering", "chain_links", "centerline", "formats", "plot", "comparison", "polygons",
-        "joining", "frame", "exact", "scaling", "arcs", "progress", "outliers",
+        "joining", "frame", "exact", "scaling", "arcs",
+        "crossings", "shared", "progress", "outliers",
     },
     {
         "verification", "optimization", "sections", "nodes", "removal", "balance", "estimation",

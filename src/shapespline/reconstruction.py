@@ -2,18 +2,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
 from shapespline.contour import Contour, Shape
+from shapespline.crossings import crossing_pairs, self_crossings
 from shapespline.drawing import Drawing
 from shapespline.errors import InvalidInputError
+from shapespline.exact import sampled
 from shapespline.fitting import fit_curve
+from shapespline.frame import reversed_curve
+from shapespline.joining import backwards, joined
+from shapespline.shared import shared_arcs
 from shapespline.tolerance import Effort, Ends, Form, tolerance_length
+from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
+    from shapespline.drawing import Fit, Piece
     from shapespline.optimization import Callback
+    from shapespline.typing import FloatArray
+
+# Curves are looked at for crossings as polylines within this part of the tolerance; those that
+# cross are fitted so many times with half the tolerance.
+SAMPLING_PART, CLOSER_ROUNDS = 0.02, 5
+# Of the tolerance: points of two contours that are no farther apart are one point of a boundary.
+SNAP_PART = 0.01
 
 
 def fit_shape(
@@ -30,8 +45,11 @@ def fit_shape(
     time_limit: float | None = None,
     ends: Ends = "free",
     outliers: bool = False,
+    shared_boundaries: bool = False,
 ) -> Drawing:
     """Fit a B-spline curve to each contour of a shape.
+
+    Contours that do not cross stay uncrossed: where two curves do, both are fitted more closely.
 
     Parameters
     ----------
@@ -42,6 +60,9 @@ def fit_shape(
         Number of control points of each curve; chosen for each contour when neither is given.
     degree, corners, form, effort, method, callback, time_limit, ends, outliers
         See `fit_curve`; the limit is that of each contour.
+    shared_boundaries : bool
+        Fit boundaries that contours share (the same points, as far as a hundredth of the
+        tolerance) once: their pieces are the same in both to the bit. Needs a tolerance.
 
     Returns
     -------
@@ -69,26 +90,123 @@ def fit_shape(
     if isinstance(tolerance, str):
         everything = Contour.silently(np.concatenate([c.points for c in shape]), closed=False)
         tolerance = tolerance_length(tolerance, everything)
-    fits = []
-    for index, contour in enumerate(shape):
-        try:
-            fit = fit_curve(
-                contour,
-                tolerance=tolerance,
-                n_control_points=n_control_points,
-                degree=degree,
-                corners=corners,
-                form=form,
-                effort=effort,
-                method=method,
-                callback=callback,
-                time_limit=time_limit,
-                ends=ends,
-                outliers=outliers,
-            )
-        except InvalidInputError as error:
-            if len(shape) == 1:
-                raise
-            raise type(error)(f"contour {index} of {len(shape)}: {error}") from error
-        fits.append(fit)
+
+    def fit(contour: Contour, within: float | None, ends: Ends = ends) -> Fit:
+        return fit_curve(
+            contour,
+            tolerance=within,
+            n_control_points=n_control_points,
+            degree=degree,
+            corners=corners,
+            form=form,
+            effort=effort,
+            method=method,
+            callback=callback,
+            time_limit=time_limit,
+            ends=ends,
+            outliers=outliers,
+        )
+
+    if shared_boundaries:
+        if tolerance is None or outliers:
+            raise InvalidInputError("shared_boundaries need a tolerance, and exclude outliers")
+        fits = _with_shared(shape, tolerance, degree, fit)
+    else:
+        fits = [
+            _named(index, shape, contour, tolerance, fit) for index, contour in enumerate(shape)
+        ]
+        if n_control_points is None:
+            fits = _uncrossed(shape, fits, fit)
     return Drawing(fits, shape.parents, shape.frame, shape.unit)
+
+
+class _FitContour(Protocol):
+    """fit_curve with the options of the caller."""
+
+    def __call__(self, contour: Contour, within: float | None, ends: Ends = ...) -> Fit: ...
+
+
+def _named(
+    index: int, shape: Shape, contour: Contour, within: float | None, fit: _FitContour
+) -> Fit:
+    """The fit of a contour; an error tells which one it is."""
+    try:
+        return fit(contour, within)
+    except InvalidInputError as error:
+        if len(shape) == 1:
+            raise
+        raise type(error)(f"contour {index} of {len(shape)}: {error}") from error
+
+
+def _uncrossed(shape: Shape, fits: list[Fit], fit: _FitContour) -> list[Fit]:
+    """Fits that cross no more than their data, as far as closer fits can bring that about."""
+    fits = list(fits)
+    lines = [_line(found) for found in fits]
+    within = [found.tolerance for found in fits]
+    for _ in range(CLOSER_ROUNDS):
+        crossed = _newly_crossed(shape, lines)
+        if not crossed:
+            return fits
+        for index in crossed:
+            within[index] *= 0.5
+            closer = fit(shape.contours[index], within[index])
+            # The promise is still the one that was asked for, or was found first.
+            asked = fits[index].tolerance
+            fits[index] = replace(closer, tolerance=max(asked, closer.hausdorff_distance))
+            lines[index] = _line(closer)
+    for index in _newly_crossed(shape, lines):
+        status = fits[index].status
+        sentence = f"{status.value}; it crosses a curve where the data do not"
+        fits[index] = replace(fits[index], status=status.saying(sentence))
+    return fits
+
+
+def _line(fit: Fit) -> FloatArray:
+    return sampled(fit.spline, SAMPLING_PART * fit.tolerance)[0].polyline
+
+
+def _newly_crossed(shape: Shape, lines: list[FloatArray]) -> list[int]:
+    """Contours whose curves cross another or themselves where the data do not."""
+    data = [contour.polyline for contour in shape]
+    found = {
+        index
+        for i, j in crossing_pairs(lines)
+        if not crossing_pairs([data[i], data[j]])
+        for index in (i, j)
+    }
+    found |= {
+        index
+        for index, line in enumerate(lines)
+        if self_crossings(line) > self_crossings(data[index])
+    }
+    return sorted(found)
+
+
+def _with_shared(shape: Shape, tolerance: float, degree: int, fit: _FitContour) -> list[Fit]:
+    """Fits of all contours, boundaries that they share fitted once."""
+    snap = SNAP_PART * tolerance
+    arcs = shared_arcs(shape.contours, snap)
+    curves = [
+        fit(Contour.silently(points, closed), tolerance - snap, "fixed")
+        for points, closed in zip(arcs.points, arcs.closed, strict=True)
+    ]
+    fits = []
+    for index, (contour, uses) in enumerate(zip(shape, arcs.uses, strict=True)):
+        if not uses:
+            fits.append(_named(index, shape, contour, tolerance, fit))
+            continue
+        first = curves[uses[0].arc]
+        sections: tuple[Piece, ...] = ()
+        if arcs.closed[uses[0].arc] and not first.sections:
+            spline = reversed_curve(first.spline) if uses[0].backwards else first.spline
+        else:
+            for use in uses:
+                pieces = curves[use.arc].pieces
+                sections += backwards(pieces) if use.backwards else pieces
+            spline = joined(sections, degree)
+        fits.append(
+            verified_fit(
+                contour, spline, tolerance=tolerance, method=first.method, sections=sections
+            )
+        )
+    return fits

@@ -1,0 +1,81 @@
+"""Which polylines cross each other, or themselves."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline import _kernels
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from shapespline.typing import FloatArray
+
+# Pairs of segments looked at at a time.
+CHUNK = 2_000_000
+
+
+def crossing_pairs(polylines: Sequence[FloatArray]) -> set[tuple[int, int]]:
+    """Pairs of polylines of which a segment crosses one of the other, (i, j) with i < j.
+
+    Touching is no crossing.
+
+    Examples
+    --------
+    >>> cross = [np.array([(0.0, 0.0), (2.0, 2.0)]), np.array([(0.0, 2.0), (2.0, 0.0)])]
+    >>> crossing_pairs([*cross, np.array([(5.0, 5.0), (6.0, 6.0)])])
+    {(0, 1)}
+    """
+    lows = [polyline.min(axis=0) for polyline in polylines]
+    highs = [polyline.max(axis=0) for polyline in polylines]
+    return {
+        (i, j)
+        for i, j in combinations(range(len(polylines)), 2)
+        if (lows[i] <= highs[j]).all()
+        and (lows[j] <= highs[i]).all()
+        and _cross(polylines[i], polylines[j])
+    }
+
+
+def self_crossings(polyline: FloatArray) -> int:
+    """Number of pairs of segments of a polyline that cross."""
+    return int(_kernels.count_crossings(np.ascontiguousarray(polyline)))
+
+
+def _cross(first: FloatArray, second: FloatArray) -> bool:
+    """Whether some segment crosses some other, among those in the common part of their boxes."""
+    low = np.maximum(first.min(axis=0), second.min(axis=0))
+    high = np.minimum(first.max(axis=0), second.max(axis=0))
+    a, b = _within(first, low, high)
+    c, d = _within(second, low, high)
+    if not (len(a) and len(c)):
+        return False
+    step = max(1, CHUNK // len(c))
+    return any(
+        bool(_proper(a[k : k + step], b[k : k + step], c, d).any()) for k in range(0, len(a), step)
+    )
+
+
+def _within(
+    polyline: FloatArray, low: FloatArray, high: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Ends of the segments whose boxes meet a box."""
+    a, b = polyline[:-1], polyline[1:]
+    meets = (np.minimum(a, b) <= high).all(axis=1) & (np.maximum(a, b) >= low).all(axis=1)
+    return a[meets], b[meets]
+
+
+def _proper(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> NDArray[np.bool_]:
+    """Whether segments a b and c d cross in an inner point of both, every one with every other."""
+
+    def side(p: FloatArray, q: FloatArray, r: FloatArray) -> FloatArray:
+        u, v = q - p, r - p
+        return np.sign(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+
+    a, b, c, d = a[:, None], b[:, None], c[None], d[None]
+    return (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)

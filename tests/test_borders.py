@@ -1,0 +1,156 @@
+"""Outlines beside each other: uncrossed, and with a boundary that is one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from benchmarks.outside_metric import two_sided
+from numpy.testing import assert_array_equal
+from tests.shapes import on_circle
+
+import shapespline as ss
+from shapespline.crossings import crossing_pairs, self_crossings
+from shapespline.shared import shared_arcs
+
+
+def wavy(a, b, height, waves, n=60):
+    """From a to b with a wave across; both ends exact."""
+    t = np.linspace(0, 1, n)
+    along = np.subtract(b, a)
+    normal = np.array([-along[1], along[0]]) / np.hypot(*along)
+    points = a + t[:, None] * along + (height * np.sin(waves * np.pi * t))[:, None] * normal
+    points[0], points[-1] = a, b
+    return points
+
+
+def cells():
+    """A map of four cells that meet in one point, with wavy borders, and an island in one."""
+    corner = {name: np.array(at, float) for name, at in {
+        "sw": (0, 0), "s": (10, 0), "se": (20, 0), "w": (0, 10), "c": (10, 10), "e": (20, 10),
+        "nw": (0, 20), "n": (10, 20), "ne": (20, 20)}.items()}  # fmt: skip
+    edges = {pair: wavy(corner[pair[0]], corner[pair[1]], 0.6, 3) for pair in [
+        ("s", "c"), ("c", "n"), ("w", "c"), ("c", "e"), ("sw", "s"), ("s", "se"), ("se", "e"),
+        ("e", "ne"), ("ne", "n"), ("n", "nw"), ("nw", "w"), ("w", "sw")]}  # fmt: skip
+
+    def ring(*names):
+        parts = []
+        for a, b in zip(names, names[1:] + names[:1], strict=True):
+            part = edges[a, b] if (a, b) in edges else edges[b, a][::-1]
+            parts.append(part[:-1])
+        return ss.Contour(np.concatenate(parts), closed=True)
+
+    island = (3, 3) + 2 * on_circle(80)
+    return [
+        ring("sw", "s", "c", "w"),
+        ring("s", "se", "e", "c"),
+        ring("c", "e", "ne", "n"),
+        ring("w", "c", "n", "nw"),
+        ss.Contour(island, closed=True),
+        ss.Contour(np.roll(island[::-1], 17, axis=0), closed=True),
+    ]
+
+
+def area(fit):
+    """Enclosed by a curve, of its Beziers' control polygons exactly: by Green's formula."""
+    u = np.linspace(0, 1, 200_001)
+    x, y = fit.spline(u).T
+    return 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
+
+
+def test_a_map_keeps_its_borders():
+    shape, tolerance = ss.Shape(cells()), 0.05
+    drawing = ss.fit_shape(shape, tolerance=tolerance, shared_boundaries=True)
+    stored = {}
+    for index, fit in enumerate(drawing):
+        contour = shape.contours[index]
+        found = two_sided(fit.curve, contour.points, closed=True, step=tolerance / 10)
+        assert found.larger <= tolerance
+        assert fit.kept
+        if index < 4:
+            for piece in fit.pieces:
+                stored.setdefault(piece.control_points.tobytes(), set()).add(index)
+                stored.setdefault(piece.control_points[::-1].tobytes(), set()).add(index)
+    # Every inner border belongs to two cells, to the bit.
+    shared = {frozenset(cells) for cells in stored.values() if len(cells) > 1}
+    assert shared == {frozenset(pair) for pair in [(0, 1), (1, 2), (2, 3), (0, 3)]}
+    # The island and the hole around it are one curve.
+    ring, hole = drawing.fits[4].spline, drawing.fits[5].spline
+    assert_array_equal(np.sort(ring.control_points, axis=0), np.sort(hole.control_points, axis=0))
+    # No slivers: inner borders cancel, so the cells fill what their outer arcs enclose. A curve
+    # within the tolerance of its data encloses as much, but for a strip along the data.
+    total = sum(area(fit) for fit in drawing.fits[:4])
+    data = sum(_polygon_area(contour.points) for contour in shape.contours[:4])
+    outer = 4 * 20 * 1.1
+    assert abs(total - data) <= tolerance * outer
+
+
+def _polygon_area(points):
+    x, y = points.T
+    return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+def test_arcs_of_the_map():
+    arcs = shared_arcs(cells(), 1e-9)
+    # Four inner borders, one outer border for each cell, the island once.
+    assert len(arcs.points) == 9
+    assert sum(arcs.closed) == 1
+    assert [len(uses) for uses in arcs.uses] == [3, 3, 3, 3, 1, 1]
+    assert {use.arc for use in arcs.uses[4]} == {use.arc for use in arcs.uses[5]}
+
+
+def test_outlines_apart_share_nothing():
+    apart = [ss.Contour(on_circle(40, centre=(5 * k, 0)), closed=True) for k in range(3)]
+    arcs = shared_arcs(apart, 1e-6)
+    assert arcs.points == []
+    plain, shared = (
+        ss.fit_shape(ss.Shape(apart), tolerance=0.01, shared_boundaries=flag)
+        for flag in (False, True)
+    )
+    for a, b in zip(plain, shared, strict=True):
+        assert_array_equal(a.control_points, b.control_points)
+
+
+def test_open_lines_that_run_together():
+    common = wavy((0, 0), (10, 0), 0.5, 4)
+    first = ss.Contour(np.concatenate([[(-3.0, 2.0)], common, [(13.0, 2.0)]]), closed=False)
+    second = ss.Contour(
+        np.concatenate([[(13.0, -2.0)], common[::-1], [(-3.0, -2.0)]]), closed=False
+    )
+    drawing = ss.fit_shape(ss.Shape([first, second]), tolerance=0.05, shared_boundaries=True)
+    pieces = [
+        {p.control_points.tobytes() for p in fit.pieces}
+        | {p.control_points[::-1].tobytes() for p in fit.pieces}
+        for fit in drawing
+    ]
+    assert pieces[0] & pieces[1]
+    assert all(fit.kept for fit in drawing)
+
+
+def test_shared_boundaries_need_a_tolerance():
+    with pytest.raises(ss.InvalidInputError, match="shared_boundaries need a tolerance"):
+        ss.fit_shape(ss.Shape(cells()), shared_boundaries=True)
+
+
+def test_curves_of_uncrossed_lines_do_not_cross():
+    x = np.linspace(0, 20, 400)
+    gap, tolerance = 0.05, 0.4
+    low = ss.Contour(np.column_stack([x, np.sin(x)]), closed=False)
+    high = ss.Contour(np.column_stack([x, np.sin(x) + gap + 0.02 * np.cos(9 * x)]), closed=False)
+    apart = [ss.fit_curve(contour, tolerance=tolerance) for contour in (low, high)]
+    assert crossing_pairs([fit.spline(np.linspace(0, 1, 4000)) for fit in apart])  # else no test
+    drawing = ss.fit_shape(ss.Shape([low, high]), tolerance=tolerance)
+    assert not crossing_pairs([fit.spline(np.linspace(0, 1, 4000)) for fit in drawing])
+    for fit in drawing:
+        assert fit.kept
+        assert fit.tolerance == tolerance
+
+
+def test_crossings_by_hand():
+    a = np.array([(0.0, 0.0), (4.0, 4.0)])
+    b = np.array([(0.0, 4.0), (4.0, 0.0)])
+    touching = np.array([(4.0, 4.0), (8.0, 0.0)])
+    assert crossing_pairs([a, b, touching]) == {(0, 1)}
+    assert self_crossings(np.array([(-1.0, -2), (0, 0), (2, 2), (2, 0), (0, 2)])) == 1
+    rng = np.random.default_rng(1)
+    long = np.cumsum(rng.standard_normal((3000, 2)), axis=0)
+    assert crossing_pairs([long, long + 0.1]) == {(0, 1)}
