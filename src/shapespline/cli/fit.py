@@ -115,6 +115,10 @@ def fit(
     outliers: Annotated[
         bool, typer.Option("--outliers", help="Leave out points that jump off the path and back.")
     ] = False,
+    shared_boundaries: Annotated[
+        bool,
+        typer.Option("--shared-boundaries", help="Boundaries of two outlines are fitted once."),
+    ] = False,
     time_limit: Annotated[
         float | None,
         typer.Option(help="Seconds for each curve; the best one so far is written after them."),
@@ -149,6 +153,7 @@ def fit(
         "ends": ends,
         "outliers": outliers,
         "time_limit": time_limit,
+        "shared_boundaries": shared_boundaries,
     }
 
     def check(found: Sequence[Path]) -> None:
