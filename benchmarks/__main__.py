@@ -1,7 +1,21 @@
-"""``make bench``: every benchmark, one after the other."""
+"""``make bench``: every benchmark, one after the other; some ten minutes."""
 
-from benchmarks import foundation, sections
+from benchmarks import (
+    drawings,
+    estimation,
+    foundation,
+    methods,
+    ordering,
+    peers_table,
+    quality,
+    traced,
+)
 
 foundation.main()
-sections.table()
-sections.small_contour()
+peers_table.table()
+quality.report(quality.run(list(quality.own_corpus()), peers=True))
+estimation.main()
+methods.main()
+traced.table(traced.TOLERANCE)
+ordering.table(None)
+drawings.main()
