@@ -24,6 +24,7 @@
 #include "shapespline/removal_search.hpp"
 #include "shapespline/residuals.hpp"
 #include "shapespline/section_squares.hpp"
+#include "shapespline/thinning.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -209,6 +210,19 @@ NB_MODULE(_kernels, m) {
         "control_step"_a.noconvert(), "parameter_step"_a.noconvert(),
         "along"_a.none().noconvert() = nb::none());
 
+    m.def(
+        "thinned",
+        [](In2 points, double distance, double longest, std::optional<InIndices> marked) {
+            std::vector<std::int64_t> kept;
+            {
+                nb::gil_scoped_release release;
+                kept = ss::thinned(vectors(points), distance, longest,
+                                   marked ? indices(*marked) : std::span<const std::int64_t>{});
+            }
+            return kept;
+        },
+        "points"_a.noconvert(), "distance"_a, "longest"_a, "marked"_a.none().noconvert());
+
     // The structured fit.
     m.def(
         "corner_turns",
@@ -222,15 +236,15 @@ NB_MODULE(_kernels, m) {
 
     m.def(
         "fit_sections",
-        [](In2 points, bool closed, InIndices corner, InIndices forced,
+        [](In2 points, bool closed, InIndices corner, InIndices forced, InIndices gentle,
            std::int64_t stride, double resolution, double tolerance, int largest_degree,
            bool smooth, bool ends_fixed, double least_corner, int passes, int widest, nb::object ask,
            std::optional<In2> observed, double noise) {
             ss::Interruption asking = interruption(ask);
             nb::gil_scoped_release release;
             const ss::LaidOutOutline outline(
-                vectors(points), closed, {indices(corner), indices(forced)}, stride,
-                resolution);
+                vectors(points), closed, {indices(corner), indices(forced), indices(gentle)},
+                stride, resolution);
             std::vector<std::int64_t> degrees, counts;
             std::vector<double> knots, coordinates;
             auto sections = outline.search(tolerance, largest_degree, smooth, ends_fixed,
@@ -246,7 +260,7 @@ NB_MODULE(_kernels, m) {
             return std::make_tuple(degrees, counts, knots, coordinates);
         },
         "points"_a.noconvert(), "closed"_a, "corner"_a.noconvert(),
-        "forced"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a, "largest_degree"_a,
+        "forced"_a.noconvert(), "gentle"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a, "largest_degree"_a,
         "smooth"_a, "ends_fixed"_a, "least_corner"_a, "passes"_a, "widest"_a, "ask"_a,
         "observed"_a.none().noconvert() = nb::none(), "noise"_a = 0.0);
     // Knot removal: a search is a few calls, each a whole stage; see removal.hpp.

@@ -29,6 +29,7 @@ TIERS = [
         "joining", "frame", "exact", "scaling", "arcs",
         "crossings", "shared", "progress", "outliers",
     },
+    {"outline"},
     {
         "verification", "optimization", "sections", "nodes", "removal", "balance", "estimation",
         "placement",

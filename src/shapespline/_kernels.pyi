@@ -115,11 +115,15 @@ def corner_turns(
 # Asked now and then with the number of points, 0 before there is a curve; true ends the search.
 _Ask = Callable[[int], bool]
 
+def thinned(
+    points: FloatArray, distance: float, longest: float, marked: IntArray | None
+) -> list[int]: ...  # indices that stay
 def fit_sections(
     points: FloatArray,  # (n, 2)
     closed: bool,
     corner: IntArray,  # (n,), 0 or 1
     forced: IntArray,  # (n,), 0 or 1
+    gentle: IntArray,  # (n,), 0 or 1
     stride: int,
     resolution: float,
     tolerance: float,

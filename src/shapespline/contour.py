@@ -49,17 +49,18 @@ def _validated(points: ArrayLike) -> FloatArray:
     if array.ndim != 2 or array.shape[1] != 2:
         hint = "; transpose it?" if array.ndim == 2 and array.shape[0] == 2 else ""
         raise InvalidInputError(f"points must have shape (n, 2), got {array.shape}{hint}")
-    bad = ~np.isfinite(array).all(axis=1)
-    if bad.any():
+    largest = max(abs(float(array.min())), abs(float(array.max()))) if array.size else 0.0
+    if not np.isfinite(largest):
+        bad = ~np.isfinite(array).all(axis=1)
         first = int(np.flatnonzero(bad)[0])
         raise InvalidInputError(
             f"points must be finite, got {array[first].tolist()} at index {first}"
             f" ({int(bad.sum())} such rows); remove or repair them"
         )
-    if array.size and np.abs(array).max() > LARGEST_COORDINATE:
+    if largest > LARGEST_COORDINATE:
         raise InvalidInputError(
             f"points must not exceed {LARGEST_COORDINATE:g} in magnitude,"
-            f" got {np.abs(array).max():g}; rescale the data"
+            f" got {largest:g}; rescale the data"
         )
     return array
 
@@ -90,13 +91,13 @@ def _check_extent(distinct: FloatArray, closed: bool, n_given: int) -> None:
             f"points must hold at least {needed} distinct points for {kind} contour,"
             f" got {n_distinct} (of {n_given} given)"
         )
-    extent = float((distinct.max(axis=0) - distinct.min(axis=0)).max())
+    extent = max(float(np.ptp(distinct[:, axis])) for axis in (0, 1))
     if extent < SMALLEST_DIAGONAL:
         raise DegenerateContourError(
             f"points must extend over more than {SMALLEST_DIAGONAL:g}, got {extent:g};"
             " rescale the data"
         )
-    largest = float(np.abs(distinct).max())
+    largest = max(abs(float(distinct.min())), abs(float(distinct.max())))
     if extent < SMALLEST_PART * largest:
         raise DegenerateContourError(
             f"points must extend over more than {SMALLEST_PART:g} of their coordinates, got"
@@ -110,7 +111,11 @@ def _looks_closed(points: FloatArray) -> bool:
         return False
     gap = float(np.hypot(*(points[0] - points[-1])))
     steps = np.hypot(*np.diff(points, axis=0).T)
-    return gap <= max(CLOSING_GAP * float(np.median(steps)), float(steps.max()))
+    longest = float(steps.max())
+    # A median is slow to find, and where the gap exceeds it that often it need not be known.
+    return gap <= longest or (
+        gap <= CLOSING_GAP * longest and gap <= CLOSING_GAP * float(np.median(steps))
+    )
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -179,6 +184,13 @@ class Contour:
         contour._assemble(_validated(points), closed, accuracy)
         return contour
 
+    @classmethod
+    def trusted(cls, points: FloatArray, closed: bool, accuracy: float | None = None) -> Contour:
+        """The same unchecked and not copied, for points that come from a contour."""
+        contour = cls.__new__(cls)
+        contour._set(points, closed, np.arange(len(points)), accuracy)
+        return contour
+
     def _assemble(self, array: FloatArray, closed: bool | None, accuracy: float | None) -> int:
         """Set the fields from validated points; how many were dropped."""
         if accuracy is not None and not (is_number(accuracy) and 0 <= accuracy < np.inf):
@@ -189,10 +201,13 @@ class Contour:
             closed = _looks_closed(array)
         elif not isinstance(closed, bool | np.bool_):
             raise InvalidInputError(f"closed must be True, False or None, got {closed!r}")
+        x, y = array[:, 0], array[:, 1]
         new = np.ones(len(array), dtype=bool)
-        new[1:] = (array[1:] != array[:-1]).any(axis=1)
-        source = np.cumsum(new) - 1
-        distinct = array[new]
+        new[1:] = (x[1:] != x[:-1]) | (y[1:] != y[:-1])
+        if new.all():  # as almost always
+            source, distinct = np.arange(len(array)), array
+        else:
+            source, distinct = np.cumsum(new) - 1, array[new]
         n_dropped = len(array) - len(distinct)
         if closed and len(distinct) > 1 and (distinct[0] == distinct[-1]).all():
             source[source == len(distinct) - 1] = 0
@@ -247,8 +262,7 @@ class Contour:
     @cached_property
     def box_diagonal(self) -> float:
         """Diagonal of the bounding box, data units."""
-        extent = self.points.max(axis=0) - self.points.min(axis=0)
-        return float(np.hypot(extent[0], extent[1]))
+        return float(np.hypot(np.ptp(self.points[:, 0]), np.ptp(self.points[:, 1])))
 
     def at(self, arc_length: FloatArray) -> FloatArray:
         """Points of the data polyline at given arc lengths in [0, length], shape (k, 2)."""

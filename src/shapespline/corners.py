@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.contour import Contour
 from shapespline.noise import noise_level
 
 if TYPE_CHECKING:
-    from shapespline.contour import Contour
     from shapespline.typing import FloatArray, IntArray
 
 # A corner turns at least this much, radians.
@@ -22,6 +22,9 @@ LEAST_TURN = np.radians(25.0)
 # The shortest length on either side that is looked at: in median steps, in tolerances.
 STEPS = 5.0
 TOLERANCES = 8.0
+# A bend that is seen to be round from that near, in tolerances, is no corner. Looked at where that
+# is much nearer than the length above.
+CLOSE_TOLERANCES, CLOSER = 2.0, 0.5
 # A parabola over a length L sampled at spacing d with noise sigma has a slope error of about
 # sigma sqrt(d / L^3) times a constant; this one makes it a small part of LEAST_TURN.
 NOISE_FACTOR = 132.0
@@ -31,6 +34,8 @@ LONGEST_PART = 0.125
 # this part of a step.
 HALF_WINDOWS = (0, 1, 2, 4, 8, 16, 32)
 QUIET_STEP = 0.3
+# Of more points every so many-th is looked at first.
+MOST_POINTS = 10_000
 # Corners keep this part of the length apart.
 APART = 0.6
 
@@ -66,15 +71,42 @@ def find_corners(contour: Contour, tolerance: float = 0.0) -> Corners:
     [0, 20, 40, 60]
     """
     sigma = noise_level(contour)
+    if len(contour) > MOST_POINTS:
+        return _found_coarsely(contour, tolerance, sigma)
+    return _found(contour, tolerance, sigma)
+
+
+def _found(contour: Contour, tolerance: float, sigma: float) -> Corners:
+    """Corners among all points."""
     stations = _stations(contour, sigma)
     spacing, total = float(np.median(np.diff(stations))), float(stations[-1])
     noise_length = (NOISE_FACTOR * sigma * np.sqrt(spacing)) ** (2 / 3)
     longest = LONGEST_PART * total
-    length = min(max(STEPS * spacing, TOLERANCES * tolerance, noise_length), longest)
+    shortest = max(STEPS * spacing, noise_length)
+    length = min(max(shortest, TOLERANCES * tolerance), longest)
     fine = tangent_jumps(contour, length, stations)
     coarse = tangent_jumps(contour, min(2.0 * length, longest), stations)
     turns = np.where(fine * coarse > 0, np.minimum(np.abs(fine), np.abs(coarse)), 0.0)
+    if (close := max(shortest, CLOSE_TOLERANCES * tolerance)) < CLOSER * length:
+        nearby = tangent_jumps(contour, close, stations)
+        turns = np.where(nearby * fine > 0, np.minimum(turns, np.abs(nearby)), 0.0)
     return Corners(_separated_maxima(contour, turns, stations, APART * length), turns, length)
+
+
+def _found_coarsely(contour: Contour, tolerance: float, sigma: float) -> Corners:
+    """Corners among every so many-th point, moved to the farthest point near by."""
+    n, stride = len(contour), -(-len(contour) // MOST_POINTS)
+    coarse = Contour.trusted(np.ascontiguousarray(contour.points[::stride]), contour.closed)
+    found = _found(coarse, tolerance, sigma)
+    indices = []
+    for middle in stride * found.indices:
+        near = np.arange(middle - 2 * stride, middle + 2 * stride + 1)
+        near = near % n if contour.closed else np.clip(near, 0, n - 1)
+        begin, end = contour.points[near[0]], contour.points[near[-1]]
+        (x, y), (dx, dy) = (contour.points[near] - begin).T, end - begin
+        indices.append(int(near[np.abs(x * dy - y * dx).argmax()]))
+    turns = found.turns.repeat(stride)[:n]
+    return Corners(np.unique(np.array(indices, dtype=np.int64)), turns, found.length)
 
 
 def _stations(contour: Contour, sigma: float) -> FloatArray:

@@ -102,7 +102,7 @@ def reverse_distance(curve: BSplineCurve, contour: Contour) -> float:
 
 
 def _middle(contour: Contour) -> FloatArray:
-    return 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
+    return np.array([0.5 * (x.min() + x.max()) for x in contour.points.T])
 
 
 def _moved(curve: BSplineCurve, by: FloatArray) -> BSplineCurve:
@@ -111,5 +111,5 @@ def _moved(curve: BSplineCurve, by: FloatArray) -> BSplineCurve:
 
 def _rounding(curve: BSplineCurve, contour: Contour) -> float:
     """A few units in the last place of the largest coordinate."""
-    largest = max(np.abs(contour.points).max(), np.abs(curve.control_points).max())
+    largest = max(np.abs([a.min(), a.max()]).max() for a in (contour.points, curve.control_points))
     return 8.0 * float(np.finfo(float).eps * largest)

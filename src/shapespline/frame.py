@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.contour import Contour
 from shapespline.curve import BSplineCurve
 from shapespline.joining import backwards
@@ -15,6 +16,14 @@ if TYPE_CHECKING:
     from shapespline.drawing import Piece
     from shapespline.typing import FloatArray, IntArray
 
+# What a search may leave aside: points this part of the tolerance from the polyline without them,
+# unless its chords grow longer than this part of the box diagonal. It must be worth it: of so few
+# points, or if more than this part of them stay, none is left aside.
+THINNING = 0.01
+LONGEST_CHORD = 0.005
+FEWEST_POINTS = 500
+WORTH_THINNING = 0.7
+
 
 class WorkingFrame(NamedTuple):
     """A contour in the order and the unit in which it is fitted.
@@ -22,7 +31,8 @@ class WorkingFrame(NamedTuple):
     ``contour`` has its middle at the origin, a box diagonal between 64 and 128 (the scale is a
     power of two, exact), and an order that does not depend on where the data begin and which way
     they run. ``order`` (n,) are the indices of its points in the data. ``reversed`` tells that the
-    data run the other way; what is restored runs the way they do.
+    data run the other way; what is restored runs the way they do. A frame that was `thinned` holds
+    some of the points only, and ``slack`` is how far its polyline lies from that of all.
 
     Examples
     --------
@@ -38,6 +48,7 @@ class WorkingFrame(NamedTuple):
     middle: FloatArray
     scale: float
     reversed: bool
+    slack: float = 0.0
 
     @classmethod
     def of(cls, contour: Contour) -> WorkingFrame:
@@ -45,19 +56,45 @@ class WorkingFrame(NamedTuple):
         points = contour.points
         order, backwards = _canonical_order(points, closed=contour.closed)
         scale = ldexp(1.0, 7 - frexp(contour.box_diagonal)[1])
-        middle = points.min(axis=0) + 0.5 * np.ptp(points, axis=0)
+        middle = np.array([x.min() + 0.5 * np.ptp(x) for x in points.T])
         moved = (points[order] - middle) * scale
-        if (moved == np.roll(moved, -1, axis=0)).all(axis=1).any():
+        x, y = moved[:, 0], moved[:, 1]
+        if ((x == np.roll(x, -1)) & (y == np.roll(y, -1))).any():
             # Neighbours so close that they fall together far from the origin: leave the origin.
             middle = np.zeros(2)
             moved = points[order] * scale
         accuracy = None if contour.accuracy is None else contour.accuracy * scale
-        work = Contour(moved, contour.closed, accuracy=accuracy)
+        work = Contour.trusted(moved, contour.closed, accuracy)
         return cls(work, order, middle, scale, backwards)
+
+    def thinned(self, tolerance: float, marked: IntArray) -> WorkingFrame:
+        """The frame without the points that a search within a tolerance does not need.
+
+        Their distance from what is left is a small part of the tolerance, both ways. The frame is
+        the same if few would go. ``marked`` are indices into ``contour`` of points that stay.
+        """
+        work, slack = self.contour, THINNING * tolerance
+        if len(work) <= FEWEST_POINTS:
+            return self
+        marks = np.zeros(len(work.polyline), dtype=np.int64)
+        marks[marked] = 1
+        kept = np.array(
+            _kernels.thinned(work.polyline, slack, LONGEST_CHORD * work.box_diagonal, marks),
+            dtype=np.int64,
+        )
+        if work.closed:
+            kept = kept[:-1]
+        if len(kept) > WORTH_THINNING * len(work):
+            return self
+        return self._replace(
+            contour=Contour.trusted(work.points[kept], work.closed, work.accuracy),
+            order=self.order[kept],
+            slack=slack,
+        )
 
     @property
     def place(self) -> IntArray:
-        """For every point of the data its index in ``contour``, shape (n,)."""
+        """For every point of the data its index in ``contour``, shape (n,); of a whole frame."""
         place = np.empty(len(self.order), dtype=np.int64)
         place[self.order] = np.arange(len(self.order))
         return place
@@ -94,15 +131,29 @@ def _canonical_order(points: FloatArray, *, closed: bool) -> tuple[IntArray, boo
     """
     n = len(points)
     index = np.arange(n)
-    starts = [0]
+    ends = [0, n - 1]
     if closed:
-        least = np.lexsort((points[:, 1], points[:, 0]))[0]
-        starts = np.flatnonzero((points == points[least]).all(axis=1)).tolist()
-    readings = [((start + index) % n, False) for start in starts]
-    readings += [((start - index) % n, True) for start in (starts if closed else [n - 1])]
+        leftmost = np.flatnonzero(points[:, 0] == points[:, 0].min())
+        least = points[leftmost, 1].min()
+        ends = leftmost[points[leftmost, 1] == least].tolist()
+    readings = [(start, 1) for start in (ends if closed else ends[:1])]
+    readings += [(start, -1) for start in (ends if closed else ends[1:])]
     best = readings[0]
     for reading in readings[1:]:
-        differ = np.flatnonzero(points[reading[0]] != points[best[0]])
-        if len(differ) and points[reading[0]].flat[differ[0]] < points[best[0]].flat[differ[0]]:
+        if _comes_first(points, reading, best):
             best = reading
-    return best
+    start, step = best
+    return (start + step * index) % n, step < 0
+
+
+def _comes_first(points: FloatArray, a: tuple[int, int], b: tuple[int, int]) -> bool:
+    """Whether one way to read the points, from a start by steps, stands before another."""
+    n, begin, end = len(points), 0, 16
+    while begin < n:
+        index = np.arange(begin, min(end, n))
+        mine, yours = (points[(start + step * index) % n].ravel() for start, step in (a, b))
+        differ = np.flatnonzero(mine != yours)
+        if len(differ):
+            return bool(mine[differ[0]] < yours[differ[0]])
+        begin, end = end, 2 * end
+    return False

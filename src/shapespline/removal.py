@@ -135,6 +135,7 @@ def fit_spline(
     effort: str = "balanced",
     product_rule: bool = True,
     watch: Watch | None = None,
+    frame: WorkingFrame | None = None,
 ) -> SplineResult:
     """One B-spline with few control points within a tolerance of the data, both ways.
 
@@ -154,6 +155,8 @@ def fit_spline(
         to those of the data.
     watch : Watch, optional
         Hears of the progress and may end the search; the curve is then the last one found.
+    frame : WorkingFrame, optional
+        Of this contour, if it is known.
 
     Returns
     -------
@@ -186,7 +189,8 @@ def fit_spline(
     if not (np.isfinite(tolerance) and tolerance > 0):
         raise InvalidInputError(f"tolerance must be a positive number, got {tolerance!r}")
     watch = Watch() if watch is None else watch
-    frame = WorkingFrame.of(contour)
+    frame = WorkingFrame.of(contour) if frame is None else frame
+    frame = frame.thinned(tolerance * frame.scale, np.empty(0, dtype=np.int64))
     results: list[SplineResult] = []
     part, from_polyline = 1.0, False
     for _ in range(ATTEMPTS):
@@ -204,7 +208,7 @@ def fit_spline(
             curve,
             tolerance,
             two_sided_distance(curve, contour),
-            rule_report(curve, contour),
+            rule_report(curve, frame.contour),
             search.counts(),
         )
         results.append(result)
@@ -234,7 +238,7 @@ def _search(
     watch: Watch,
 ) -> _kernels.RemovalSearch:
     """The stages of one search, as many as the watch allows."""
-    scaled = tolerance * frame.scale
+    scaled = tolerance * frame.scale - frame.slack
     unit = frame.contour.box_diagonal / DIAGONAL
     low, high = (unit * gap for gap in LEAST_GAP)
     least = min(max(LEAST_GAP_TOLERANCES * scaled, low), high)

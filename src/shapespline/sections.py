@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.corners import LEAST_TURN, find_corners
+from shapespline.corners import LEAST_TURN
 from shapespline.distance import Distances, two_sided_distance
 from shapespline.drawing import Piece
 from shapespline.errors import InvalidInputError
-from shapespline.frame import WorkingFrame
 from shapespline.joining import joined, turn_between
 from shapespline.knots import check_degree
 from shapespline.nodes import aligned
+from shapespline.outline import SearchOutline
 from shapespline.progress import Watch
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     from shapespline.contour import Contour
     from shapespline.curve import BSplineCurve
+    from shapespline.frame import WorkingFrame
     from shapespline.typing import ArrayLike, FloatArray, IntArray
 
 # Parts of the tolerance that the search aims at, one after another until the promise is kept.
@@ -132,6 +133,7 @@ def fit_pieces(
     effort: Effort = "balanced",
     ends_fixed: bool = False,
     watch: Watch | None = None,
+    outline: SearchOutline | None = None,
 ) -> PiecesResult:
     """Fit lines, Beziers and small splines to a contour, as few points as the tolerance allows.
 
@@ -151,6 +153,8 @@ def fit_pieces(
         Whether the curve of an open contour begins and ends in its first and last point, exactly.
     watch : Watch, optional
         Hears of the progress and may end the search; what was reached is returned, verified.
+    outline : SearchOutline, optional
+        Of this contour, tolerance and corners, if it is known.
 
     Returns
     -------
@@ -182,13 +186,14 @@ def fit_pieces(
         raise InvalidInputError(f"tolerance must be a positive number, got {tolerance!r}")
     if effort not in SEARCHES:
         raise InvalidInputError(f"effort must be one of {', '.join(SEARCHES)}, got {effort!r}")
-    frame = WorkingFrame.of(contour)
+    whole = SearchOutline.of(contour, tolerance, corners) if outline is None else outline
+    frame, aim, chosen, gentle = whole.thinned()
     work = frame.contour
-    aim = tolerance * frame.scale
-    chosen = _chosen_corners(work, aim, corners, frame)
     free = isinstance(corners, str) and corners == "free"
     watch = Watch() if watch is None else watch
-    task = _Task(work, min(degree, SECTION_DEGREE), not free, not free, chosen, ends_fixed, watch)
+    task = _Task(
+        work, min(degree, SECTION_DEGREE), not free, not free, chosen, gentle, ends_fixed, watch
+    )
     # Free of rules, sharp corners are still often the cheapest: both are tried.
     tasks = [task, task._replace(keep_corners=True)] if free and len(chosen) else [task]
     results = []
@@ -201,12 +206,12 @@ def fit_pieces(
     if results and results[-1].kept and results[-1].n_stored_points <= ROUGH_PART * len(contour):
         return results[-1]
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
-    lines = _Task(work, 1, False, False, chosen, ends_fixed, Watch()).run(
+    lines = _Task(work, 1, False, False, chosen, gentle, ends_fixed, Watch()).run(
         AIMS[0] * aim, SEARCHES["fast"][0]._replace(stride=1)
     )
     others = (
         _verified(frame, p, contour, tolerance, degree, ends_fixed)
-        for p in (lines, _through_all(work))
+        for p in (lines, _through_all(whole.frame.contour))
     )
     return min((*results, *others), key=lambda found: (not found.kept, found.n_stored_points))
 
@@ -240,7 +245,16 @@ def fit_observed(
     """
     kept = np.empty(0, dtype=np.int64) if corners is None else corners
     faithful = corners is not None
-    task = _Task(outline, min(degree, SECTION_DEGREE), faithful, faithful, kept, False, Watch())
+    task = _Task(
+        outline,
+        min(degree, SECTION_DEGREE),
+        faithful,
+        faithful,
+        kept,
+        np.zeros(len(outline), dtype=np.int64),
+        False,
+        Watch(),
+    )
     runs = [task.run(tolerance, search, observed, noise) for search in SEARCHES[effort]]
     return min(runs, key=lambda pieces: sum(len(p.control_points) - 1 for p in pieces))
 
@@ -263,32 +277,11 @@ def _size(pieces: Sequence[Piece]) -> int:
     return sum(len(piece.control_points) - 1 for piece in pieces)
 
 
-def _chosen_corners(
-    work: Contour, aim: float, corners: str | ArrayLike | None, frame: WorkingFrame
-) -> IntArray:
-    """Corners as indices of the working contour."""
-    if corners is None:
-        return np.empty(0, dtype=np.int64)
-    if isinstance(corners, str):
-        if corners not in ("auto", "free"):
-            raise InvalidInputError(
-                f"corners must be 'auto', 'free', None or indices, got {corners!r}"
-            )
-        return find_corners(work, aim).indices
-    given = np.asarray(corners)
-    n = len(work)
-    if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
-        raise InvalidInputError(f"corners must be one list of whole numbers, got {corners!r}")
-    if given.size and (given.min() < 0 or given.max() >= n):
-        raise InvalidInputError(f"corners must be indices below {n}, got {given.tolist()}")
-    return np.unique(frame.place[given.astype(np.int64)])
-
-
 class _Task(NamedTuple):
     """What stays the same over the runs on one contour.
 
     Corners are candidate nodes always and nodes if they are kept; ``smooth`` makes other joints
-    tangent.
+    tangent, where the outline is ``gentle`` at the price of some more points.
     """
 
     contour: Contour
@@ -296,6 +289,7 @@ class _Task(NamedTuple):
     keep_corners: bool
     smooth: bool
     corners: IntArray
+    gentle: IntArray
     ends_fixed: bool
     watch: Watch
 
@@ -318,6 +312,7 @@ class _Task(NamedTuple):
             self.contour.closed,
             marked if self.keep_corners else np.zeros_like(marked),
             marked,
+            self.gentle,
             max(min(search.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
             search.resolution * tolerance,
             tolerance,

@@ -10,23 +10,21 @@ import numpy as np
 
 from shapespline.arrays import float_array, is_number
 from shapespline.errors import InvalidInputError
+from shapespline.outline import FEWEST_STRAIGHT, STRAIGHT_PART, SearchOutline
 from shapespline.removal import fit_spline
-from shapespline.sections import fit_pieces
+from shapespline.sections import ROUGH_PART, fit_pieces
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
     from shapespline.contour import Contour
     from shapespline.drawing import Fit, Piece
+    from shapespline.frame import WorkingFrame
     from shapespline.progress import Watch
     from shapespline.typing import ArrayLike
 
 Form = Literal["pieces", "spline"]
 Ends = Literal["free", "fixed"]
 Effort = Literal["fast", "balanced", "smallest"]
-
-# So many points that spread across a line by no more than this part of the tolerance are a straight
-# run of the data, which one smooth spline would bend.
-FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1
 
 
 def tolerance_length(tolerance: float | str, contour: Contour) -> float:
@@ -71,6 +69,13 @@ def fit_within(
         if not (corners is None or isinstance(corners, str)):
             raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
         return _single(contour, tolerance, degree, effort, watch)
+    free = isinstance(corners, str) and corners == "free"
+    outline = SearchOutline.of(contour, tolerance, corners)
+    smooth = None
+    if not len(outline.corners) and not outline.has_straight_runs:
+        smooth = _single(contour, tolerance, degree, effort, watch, outline.frame)
+        if _followed(smooth) or watch.ended_as:
+            return smooth
     found = fit_pieces(
         contour,
         tolerance,
@@ -79,6 +84,7 @@ def fit_within(
         effort=effort,
         ends_fixed=ends == "fixed",
         watch=watch,
+        outline=outline,
     )
     fit = _ended(
         verified_fit(
@@ -91,27 +97,37 @@ def fit_within(
         ),
         watch,
     )
-    if watch.ended_as:
+    if watch.ended_as or (len(outline.corners) and not free):
         return fit
-    free = isinstance(corners, str) and corners == "free"
     if not free and any(_drawn_straight(piece, contour, tolerance) for piece in found.pieces):
         return fit
-    may_be_smooth = corners is None or not len(found.corners)
-    if not may_be_smooth and not free:
-        return fit
-    smooth = _single(contour, tolerance, degree, effort, watch)
-    # Of equals the single spline: it has no joints.
+    smooth = smooth or _single(contour, tolerance, degree, effort, watch, outline.frame)
+    # Of equals the single spline: it has no joints. Nor has it corners where the data have none.
+    if not free and len(found.corners) and _followed(smooth):
+        return smooth
     better = smooth.kept >= fit.kept and smooth.n_stored_points <= fit.n_stored_points
     return smooth if better else _ended(fit, watch)
 
 
-def _single(contour: Contour, tolerance: float, degree: int, effort: Effort, watch: Watch) -> Fit:
+def _single(
+    contour: Contour,
+    tolerance: float,
+    degree: int,
+    effort: Effort,
+    watch: Watch,
+    frame: WorkingFrame | None = None,
+) -> Fit:
     """The smallest single spline within a tolerance."""
-    found = fit_spline(contour, tolerance, degree=degree, effort=effort, watch=watch)
+    found = fit_spline(contour, tolerance, degree=degree, effort=effort, watch=watch, frame=frame)
     fit = verified_fit(
         contour, found.curve, tolerance=tolerance, method="removal", distances=found.distances
     )
     return _ended(fit, watch)
+
+
+def _followed(fit: Fit) -> bool:
+    """Whether a fit keeps its tolerance with few points for those of the data."""
+    return fit.kept and fit.n_stored_points <= ROUGH_PART * len(fit.contour)
 
 
 def _drawn_straight(piece: Piece, contour: Contour, tolerance: float) -> bool:

@@ -37,6 +37,13 @@ struct Bezier {
 
     // Point and derivatives with respect to the local parameter s in [0, 1].
     Jet at(double s) const {
+        if constexpr (Degree == 3) {  // by powers, twice as fast; no worse about the first point
+            const Vec2 a = 3.0 * (points[1] - points[0]);
+            const Vec2 b = 3.0 * (points[2] - points[1]) - a;
+            const Vec2 c = points[3] - points[0] - a - b;
+            return {points[0] + s * (a + s * (b + s * c)), a + s * (2.0 * b + (3.0 * s) * c),
+                    2.0 * b + (6.0 * s) * c};
+        }
         std::array<Vec2, Degree + 1> work = points;
         Jet jet{};
         for (int n = Degree; n > 0; --n) {

@@ -36,16 +36,23 @@ struct Box {
         const double dy = std::max({low.y - p.y, 0.0, p.y - high.y});
         return dx * dx + dy * dy;
     }
+    double distance_sq(const Box &b) const {
+        const double dx = std::max({low.x - b.high.x, 0.0, b.low.x - high.x});
+        const double dy = std::max({low.y - b.high.y, 0.0, b.low.y - high.y});
+        return dx * dx + dy * dy;
+    }
 };
 
 class BoxTree {
   public:
-    explicit BoxTree(std::span<const Box> items)
-        : n_items_(items.size()),
+    // `include_item(i, box)` widens a box by item i.
+    template <class IncludeItem>
+    BoxTree(std::size_t n_items, IncludeItem &&include_item)
+        : n_items_(n_items),
           n_leaves_(std::bit_ceil((n_items_ + kLeafSize - 1) / kLeafSize)),
           boxes_(2 * n_leaves_) {
         for (std::size_t i = 0; i < n_items_; ++i)
-            boxes_[n_leaves_ + i / kLeafSize].include(items[i]);
+            include_item(i, boxes_[n_leaves_ + i / kLeafSize]);
         for (std::size_t node = n_leaves_ - 1; node > 0; --node) {
             boxes_[node].include(boxes_[2 * node]);
             boxes_[node].include(boxes_[2 * node + 1]);
@@ -71,6 +78,24 @@ class BoxTree {
                 boxes_[2 * node].distance_sq(p) <= boxes_[2 * node + 1].distance_sq(p);
             stack[depth++] = 2 * node + (left_first ? 1 : 0);
             stack[depth++] = 2 * node + (left_first ? 0 : 1);
+        }
+    }
+
+    // Calls visit(item) for all items that may lie nearer to a box than a distance.
+    template <class Visit>
+    void visit_near(const Box &box, double distance_sq, Visit &&visit) const {
+        std::array<std::size_t, 2 * 64> stack;
+        std::size_t depth = 0;
+        stack[depth++] = 1;
+        while (depth > 0) {
+            const std::size_t node = stack[--depth];
+            if (boxes_[node].distance_sq(box) >= distance_sq) continue;
+            if (node >= n_leaves_) {
+                visit_leaf(node - n_leaves_, visit);
+                continue;
+            }
+            stack[depth++] = 2 * node + 1;
+            stack[depth++] = 2 * node;
         }
     }
 

@@ -1,6 +1,9 @@
 // Nearest points on a B-spline curve.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -18,24 +21,85 @@ class CurveSearch {
         double distance_sq;
         double parameter;
         std::size_t piece;
+        bool inside;  // the foot is no end of the piece
     };
 
     CurveSearch(const Knots &knots, std::span<const Vec2> points)
-        : pieces_(gentle_pieces(knots, points)), tree_(hull_boxes(pieces_)) {}
+        : pieces_(gentle_pieces(knots, points)),
+          boxes_(hull_boxes(pieces_)),
+          tree_(pieces_.size(), [&](std::size_t i, Box &box) { box.include(boxes_[i]); }) {}
 
+    // Calls found(j, nearest) for every query, in any order.
+    //
     // Every piece whose convex hull's box comes nearer than the best so far is searched: global up
-    // to the convergence of Newton's method on a gentle piece.
-    Nearest nearest(Vec2 q, std::size_t hint) const {
-        Nearest best{std::numeric_limits<double>::infinity(), 0.0, 0};
-        tree_.search(q, best.distance_sq, hint, [&](std::size_t i) {
-            const Nearest found = nearest_on_piece(q, i);
-            if (found.distance_sq < best.distance_sq) best = found;
-        });
-        return best;
+    // to the convergence of Newton's method on a gentle piece. Neighbours mostly have their feet
+    // inside the same piece, and one look into the tree serves them all.
+    template <class Found>
+    void nearest(std::span<const Vec2> queries, Found &&found) const {
+        Run run;
+        std::vector<std::size_t> others;
+        const auto finish = [&] {
+            if (run.n == 0) return;
+            others.clear();
+            tree_.visit_near(run.box, run.farthest_sq, [&](std::size_t i) {
+                if (i != run.piece && boxes_[i].distance_sq(run.box) < run.farthest_sq)
+                    others.push_back(i);
+            });
+            for (std::size_t k = 0; k < run.n; ++k) {
+                for (const std::size_t i : others)
+                    improve(queries[run.begin + k], i, run.nearest[k]);
+                found(run.begin + k, run.nearest[k]);
+            }
+            run.n = 0;
+        };
+        for (std::size_t j = 0; j < queries.size(); ++j) {
+            Nearest best = nearest_on_piece(queries[j], run.piece);
+            if (best.inside) {
+                if (run.n == 0) run.start(j);
+                run.add(queries[j], best);
+                if (run.n == kLongestRun) finish();
+                continue;
+            }
+            finish();
+            tree_.search(queries[j], best.distance_sq, run.piece,
+                         [&](std::size_t i) { improve(queries[j], i, best); });
+            found(j, best);
+            run.piece = best.piece;
+        }
+        finish();
     }
 
   private:
+    static constexpr std::size_t kLongestRun = 16;
+
+    // Consecutive queries with their feet inside one piece.
+    struct Run {
+        std::size_t piece = 0, begin = 0, n = 0;
+        Box box;
+        double farthest_sq = 0.0;
+        std::array<Nearest, kLongestRun> nearest;
+
+        void start(std::size_t j) {
+            begin = j;
+            box = Box{};
+            farthest_sq = 0.0;
+        }
+        void add(Vec2 q, const Nearest &best) {
+            box.include(q);
+            farthest_sq = std::max(farthest_sq, best.distance_sq);
+            nearest[n++] = best;
+        }
+    };
+
+    void improve(Vec2 q, std::size_t piece, Nearest &best) const {
+        if (piece == best.piece || boxes_[piece].distance_sq(q) >= best.distance_sq) return;
+        const Nearest other = nearest_on_piece(q, piece);
+        if (other.distance_sq < best.distance_sq) best = other;
+    }
+
     static constexpr int kMaxDepth = 8, kMinDepth = 2, kNewtonSteps = 32;
+    // Newton's method squares its error: what follows a step so small is rounding.
+    static constexpr double kLastStep = 1e-8;
 
     // Pieces whose control polygon is at most 2 % longer than its chord: on them the squared
     // distance to a point has one minimum, unless the point is near the centre of curvature, where
@@ -81,6 +145,7 @@ class CurveSearch {
             if (distance_sq < best_sq) best_s = at, best_sq = distance_sq;
         };
         consider(1.0, norm_sq(piece.points[Degree] - q));
+        bool last = false;
         for (int iteration = 0; iteration < kNewtonSteps; ++iteration) {
             const auto jet = piece.at(s);
             const Vec2 r = jet.point - q;
@@ -89,15 +154,18 @@ class CurveSearch {
             const double newton = norm_sq(jet.first) + dot(r, jet.second);
             // Where the second derivative is not safely positive, Gauss-Newton still descends.
             const double curvature = std::max(newton, 0.25 * norm_sq(jet.first));
-            if (!(curvature > 0.0)) break;
+            if (last || !(curvature > 0.0)) break;
             const double next = std::clamp(s - slope / curvature, 0.0, 1.0);
-            if (std::abs(next - s) <= 1e-15) break;
+            if (next == s) break;
+            last = curvature == newton && std::abs(next - s) <= kLastStep;
             s = next;
         }
-        return {best_sq, piece.begin + best_s * (piece.end - piece.begin), index};
+        return {best_sq, piece.begin + best_s * (piece.end - piece.begin), index,
+                best_s > 0.0 && best_s < 1.0};
     }
 
     std::vector<Bezier<Degree>> pieces_;
+    std::vector<Box> boxes_;
     BoxTree tree_;
 };
 
@@ -106,13 +174,10 @@ inline void nearest_on_curve(const Knots &knots, std::span<const Vec2> points,
                              double *distances_sq) {
     dispatch_degree(knots.degree, [&]<int Degree>() {
         const CurveSearch<Degree> search(knots, points);
-        std::size_t hint = 0;
-        for (std::size_t j = 0; j < queries.size(); ++j) {
-            const auto found = search.nearest(queries[j], hint);
+        search.nearest(queries, [&](std::size_t j, const auto &found) {
             parameters[j] = found.parameter;
             distances_sq[j] = found.distance_sq;
-            hint = found.piece;
-        }
+        });
     });
 }
 

@@ -10,11 +10,18 @@ namespace shapespline {
 
 class JointSmoother {
   public:
+    // `gentle` tells of each datum of a lap whether the data hardly turn there.
     JointSmoother(std::span<const Vec2> data, SectionRing &ring, double tolerance,
-                  int largest_degree)
-        : data_(data), ring_(ring), tolerance_(tolerance), largest_degree_(largest_degree) {}
+                  int largest_degree, std::span<const Index> gentle)
+        : data_(data),
+          ring_(ring),
+          tolerance_(tolerance),
+          largest_degree_(largest_degree),
+          gentle_(gentle) {}
 
-    void run() {
+    // The last time a joint where the data hardly turn gets more points before it is given up.
+    void run(bool last) {
+        most_raise_ = last ? kMostRaise : 0;
         while (merge_one()) {
         }
         if (ring_.closed()) start_at_corner();
@@ -24,7 +31,7 @@ class JointSmoother {
     }
 
   private:
-    static constexpr int kRounds = 20, kAlignRounds = 40, kStartRounds = 12;
+    static constexpr int kRounds = 20, kAlignRounds = 40, kStartRounds = 12, kMostRaise = 4;
     // A joint that turns more than this, in radians, is not worth the attempt.
     static constexpr double kSteepest = 0.785;
     // In longer chains the sections are not raised one by one.
@@ -75,9 +82,9 @@ class JointSmoother {
     }
 
     // Fits the chain of tangent joints from section i; returns the section to go on with. Where the
-    // tolerance forbids it, one curve after another gets a point more, then all of them; then the
-    // chain is broken at the joint that turns most, which is a corner after all (in a long chain at
-    // all that turn half as much).
+    // tolerance forbids it, one curve after another gets a point more, then all of them, then the
+    // two sections that turn most some more if the data do not turn, lines too; then the chain is
+    // broken there, which is a corner after all (in a long chain at all that turn half as much).
     long align_chain(long i) {
         long last = i;
         while (last + 1 < ring_.size() && ring_.at(last + 1).tangent) ++last;
@@ -86,6 +93,12 @@ class JointSmoother {
         long steepest = i + 1;
         for (long k = i + 2; k <= last; ++k)
             if (std::fabs(ring_.turn(k)) > std::fabs(ring_.turn(steepest))) steepest = k;
+        const bool gentle = gentle_[ring_.origin(ring_.at(steepest))] != 0;
+        for (int by = 2; gentle && by <= most_raise_; by += 2) {
+            std::vector<int> raise(last - i + 1, 0);
+            raise[steepest - 1 - i] = raise[steepest - i] = by;
+            if (align(i, last, raise)) return last + 1;
+        }
         const double least = last - i >= kLongChain ? 0.5 * std::fabs(ring_.turn(steepest)) : 4.0;
         for (long k = i + 1; k <= last; ++k)
             if (k == steepest || std::fabs(ring_.turn(k)) >= least) ring_.at(k).tangent = false;
@@ -105,13 +118,16 @@ class JointSmoother {
 
     // Fits sections first .. last with their tangent joints, some of them raised if need be.
     bool align(long first, long last) {
-        for (const std::vector<int> &raise : raises(first, last)) {
-            std::vector<Section> window = ring_.window(first, last);
-            for (std::size_t k = 0; k < window.size(); ++k)
-                if (raise[k] > 0) window[k] = raised(window[k], raise[k]);
-            if (accept(first, last, window, kAlignRounds)) return true;
-        }
+        for (const std::vector<int> &raise : raises(first, last))
+            if (align(first, last, raise)) return true;
         return false;
+    }
+
+    bool align(long first, long last, const std::vector<int> &raise) {
+        std::vector<Section> window = ring_.window(first, last);
+        for (std::size_t k = 0; k < window.size(); ++k)
+            if (raise[k] > 0) window[k] = raised(window[k], raise[k]);
+        return accept(first, last, window, kAlignRounds);
     }
 
     // Points to add to each section of a chain, cheapest first.
@@ -152,7 +168,8 @@ class JointSmoother {
     std::span<const Vec2> data_;
     SectionRing &ring_;
     double tolerance_;
-    int largest_degree_;
+    int largest_degree_, most_raise_ = 0;
+    std::span<const Index> gentle_;
     std::set<Index> failed_;
 };
 

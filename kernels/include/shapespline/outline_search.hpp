@@ -15,6 +15,7 @@ struct OutlineSearch {
     Index period;                // data of one lap, 0 if open
     Candidates candidates;
     std::vector<NodeKind> nodes;  // of each candidate
+    std::span<const Index> gentle;  // of each datum of a lap: whether the data hardly turn there
     double tolerance;
     int largest_degree;
     bool smooth;      // joints that are no corners are tangent
@@ -28,12 +29,12 @@ struct OutlineSearch {
         std::vector<Section> path = sections_of_best_path();
         if (path.empty()) return path;
         SectionRing ring(std::move(path), period, ends_fixed);
-        JointSmoother smoother(data, ring, tolerance, largest_degree);
+        JointSmoother smoother(data, ring, tolerance, largest_degree, gentle);
         Reduction reducer(data, ring, reduction, interruption);
-        if (smooth) smoother.run();
+        if (smooth) smoother.run(false);
         reducer.run();
         for (int round = 0; round < 2 && release_corners(ring); ++round) reducer.run();
-        if (smooth) smoother.run();
+        if (smooth) smoother.run(true);
         return ring.sections();
     }
 
@@ -161,16 +162,16 @@ struct OutlineSearch {
 class LaidOutOutline {
   public:
     // What is known about each point: 1 for a corner that is kept, for a point that must be a
-    // candidate node.
+    // candidate node, for one where the data hardly turn.
     struct Marks {
-        std::span<const Index> corner, forced;
+        std::span<const Index> corner, forced, gentle;
     };
 
     // Candidates are every `stride`-th point and the forced ones, and more wherever the polyline
     // through them would leave the data by more than `resolution`.
     LaidOutOutline(std::span<const Vec2> points, bool closed, const Marks &marks, Index stride,
                    double resolution)
-        : n_(static_cast<Index>(points.size())), closed_(closed) {
+        : n_(static_cast<Index>(points.size())), closed_(closed), gentle_(marks.gentle) {
         for (int lap = 0; lap < (closed ? 3 : 1); ++lap)
             data_.insert(data_.end(), points.begin(), points.end());
         if (closed) data_.push_back(points[0]);
@@ -188,7 +189,7 @@ class LaidOutOutline {
     std::vector<Section> search(double tolerance, int largest_degree, bool smooth, bool ends_fixed,
                                 double least_corner, int passes, int widest,
                                 Interruption &interruption) const {
-        return OutlineSearch{data_,     closed_ ? n_ : 0, candidates_, nodes_,
+        return OutlineSearch{data_,     closed_ ? n_ : 0, candidates_, nodes_,       gentle_,
                              tolerance, largest_degree,   smooth,      ends_fixed,
                              least_corner,
                              {tolerance, largest_degree, smooth, passes, widest},
@@ -225,6 +226,7 @@ class LaidOutOutline {
     std::vector<Vec2> data_;
     Index n_;
     bool closed_;
+    std::span<const Index> gentle_;
     Candidates candidates_;
     std::vector<NodeKind> nodes_;
 };

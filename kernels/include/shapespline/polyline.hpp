@@ -27,7 +27,10 @@ class Polyline {
     };
 
     explicit Polyline(std::span<const Vec2> vertices)
-        : vertices_(vertices), tree_(segment_boxes(vertices)) {}
+        : vertices_(vertices), tree_(vertices.size() - 1, [&](std::size_t i, Box &box) {
+              box.include(vertices[i]);
+              box.include(vertices[i + 1]);
+          }) {}
 
     double distance_sq(Vec2 p, std::size_t segment) const {
         return segment_distance_sq(p, vertices_[segment], vertices_[segment + 1]);
@@ -44,15 +47,6 @@ class Polyline {
     }
 
   private:
-    static std::vector<Box> segment_boxes(std::span<const Vec2> vertices) {
-        std::vector<Box> boxes(vertices.size() - 1);
-        for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
-            boxes[i].include(vertices[i]);
-            boxes[i].include(vertices[i + 1]);
-        }
-        return boxes;
-    }
-
     std::span<const Vec2> vertices_;
     BoxTree tree_;
 };

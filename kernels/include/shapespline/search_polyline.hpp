@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "shapespline/thinning.hpp"
 #include "shapespline/tracking.hpp"
 
 namespace shapespline::removal {
@@ -45,32 +46,13 @@ inline ArcPolyline arc_polyline(std::span<const Vec2> points, bool closed) {
     return out;
 }
 
-// Indices of vertices such that all between two of them lie within a distance of their chord, and no
-// chord skips over a longer way than `longest`. The last one of open data is among them.
+// Indices of vertices, thinned as far as a distance and a longest way allow. The last one of open
+// data is among them.
 inline std::vector<int> chord_vertices(const ArcPolyline &data, double distance, double longest) {
-    const int end = data.closed ? data.size() : data.size() - 1;
-    const auto near_chord = [&](int a, int b) {
-        for (int j = a + 1; j < b; ++j)
-            if (segment_distance_sq(data.point(j), data.point(a), data.point(b)) >
-                distance * distance)
-                return false;
-        return true;
-    };
-    const auto may_skip = [&](int a, int b) {
-        return b <= end && (b == a + 1 || (data.arc(b) - data.arc(a) <= longest && near_chord(a, b)));
-    };
-    std::vector<int> vertices;
-    for (int a = 0; a < end;) {
-        vertices.push_back(a);
-        // Gallop, then close in: each chord that is taken has been looked at as a whole.
-        int reach = 1;
-        while (may_skip(a, a + 2 * reach)) reach *= 2;
-        for (int step = reach / 2; step > 0; step /= 2)
-            if (may_skip(a, a + reach + step)) reach += step;
-        a += reach;
-    }
-    if (!data.closed) vertices.push_back(end);
-    return vertices;
+    std::vector<Vec2> lap = data.points;
+    if (data.closed) lap.push_back(lap.front());
+    const std::vector<std::int64_t> kept = thinned(lap, distance, longest);
+    return {kept.begin(), kept.end() - (data.closed ? 1 : 0)};
 }
 
 // The polyline through such vertices, with points on segments longer than `longest`.

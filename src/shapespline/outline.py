@@ -1,0 +1,114 @@
+"""A contour made ready for a search within a tolerance: order and unit, corners, straight runs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.corners import find_corners
+from shapespline.errors import InvalidInputError
+from shapespline.frame import WorkingFrame
+from shapespline.noise import noise_level
+
+if TYPE_CHECKING:
+    from shapespline.contour import Contour
+    from shapespline.typing import ArrayLike, FloatArray, IntArray
+
+CornerChoice = Literal["auto", "free"]
+
+# Where the outline turns less, radians, a corner of the result would be seen to be wrong.
+GENTLE_TURN = np.radians(8.0)
+# So many points that spread across a line by no more than this part of the tolerance are a straight
+# run of the data, which one smooth spline would bend.
+FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1
+# A chord is a run, and not one of a row along an arc, if most of it stays one chord within a
+# fiftieth of the distance, where an arc makes seven and an inflection four. It is longer than some
+# tolerances.
+FINER, ONE_CHORD, LEAST_TOLERANCES = 0.02, 0.6, 10.0
+
+
+class SearchOutline(NamedTuple):
+    """What a search within a tolerance knows about a contour before it begins.
+
+    ``frame`` holds the points in its order and unit, ``tolerance`` is in that unit too. ``corners``
+    are indices of its points, ``gentle`` (n,) is 1 where the outline hardly turns.
+    """
+
+    frame: WorkingFrame
+    tolerance: float
+    corners: IntArray
+    gentle: IntArray
+
+    @classmethod
+    def of(
+        cls, contour: Contour, tolerance: float, corners: CornerChoice | ArrayLike | None
+    ) -> SearchOutline:
+        """The outline of a contour; corners as `fit_pieces` takes them.
+
+        Examples
+        --------
+        >>> from shapespline import Contour
+        >>> side = np.linspace(0, 1, 20, endpoint=False)
+        >>> x = np.concatenate([side, 1 + 0 * side, 1 - side, 0 * side])
+        >>> square = Contour(np.column_stack([x, np.roll(x, 20)]), closed=True)
+        >>> outline = SearchOutline.of(square, 0.01, "auto")
+        >>> len(outline.corners), outline.has_straight_runs
+        (4, True)
+        """
+        frame = WorkingFrame.of(contour)
+        aim, n = tolerance * frame.scale, len(contour)
+        gentle = np.ones(n, dtype=np.int64)
+        if corners is None:
+            return cls(frame, aim, np.empty(0, dtype=np.int64), gentle)
+        if isinstance(corners, str):
+            if corners not in ("auto", "free"):
+                raise InvalidInputError(
+                    f"corners must be 'auto', 'free', None or indices, got {corners!r}"
+                )
+            found = find_corners(frame.contour, aim)
+            return cls(frame, aim, found.indices, (found.turns < GENTLE_TURN).astype(np.int64))
+        given = np.asarray(corners)
+        if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
+            raise InvalidInputError(f"corners must be one list of whole numbers, got {corners!r}")
+        if given.size and (given.min() < 0 or given.max() >= n):
+            raise InvalidInputError(f"corners must be indices below {n}, got {given.tolist()}")
+        return cls(frame, aim, np.unique(frame.place[given.astype(np.int64)]), gentle)
+
+    def thinned(self) -> SearchOutline:
+        """The outline without the points that the search does not need, its tolerance less so."""
+        frame = self.frame.thinned(self.tolerance, self.corners)
+        if frame is self.frame:
+            return self
+        place = self.frame.place[frame.order]
+        return SearchOutline(
+            frame,
+            self.tolerance - frame.slack,
+            np.flatnonzero(np.isin(place, self.corners)),
+            self.gentle[place],
+        )
+
+    @property
+    def has_straight_runs(self) -> bool:
+        """Whether some of the data are straight, or too noisy to tell."""
+        contour, width = self.frame.contour, STRAIGHT_PART * self.tolerance
+        if noise_level(contour) > 0.5 * FINER * width:
+            return True
+        polyline = contour.polyline
+        coarse, fine = _chords(polyline, width), _chords(polyline, FINER * width)
+        lengths = _lengths(polyline, coarse)
+        longest = np.zeros(len(lengths))
+        inside = np.searchsorted(coarse, 0.5 * (fine[1:] + fine[:-1]), side="right") - 1
+        np.maximum.at(longest, inside, _lengths(polyline, fine))
+        runs = (np.diff(coarse) > FEWEST_STRAIGHT) & (longest >= ONE_CHORD * lengths)
+        return bool((runs & (lengths >= LEAST_TOLERANCES * self.tolerance)).any())
+
+
+def _chords(polyline: FloatArray, distance: float) -> IntArray:
+    """Indices of vertices whose chords lie within a distance of the polyline."""
+    return np.array(_kernels.thinned(polyline, distance, np.inf, None), dtype=np.int64)
+
+
+def _lengths(polyline: FloatArray, vertices: IntArray) -> FloatArray:
+    return np.hypot(*np.diff(polyline[vertices], axis=0).T)
