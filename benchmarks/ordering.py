@@ -17,6 +17,11 @@ from matplotlib.figure import Figure
 import shapespline as ss
 from benchmarks.quality import LARGE, OWN
 
+HEADER = (
+    "| set | points | true neighbours found | outlines | outliers | confidence | noise | s |\n"
+    "|---|---|---|---|---|---|---|---|"
+)
+
 
 def adjacent(order: list[int], closed: bool) -> set[frozenset[int]]:
     """Pairs of neighbours."""
@@ -38,8 +43,7 @@ def ordered_sets() -> list[tuple[str, np.ndarray, bool]]:
 
 def table(folder: Path | None) -> None:
     """One line a set."""
-    print("| set | points | true neighbours found | outlines | outliers | confidence | noise | s |")
-    print("|---|---|---|---|---|---|---|---|")
+    print(HEADER)
     exact, sets = 0, ordered_sets()
     for name, points, closed in sets:
         shuffle = np.random.default_rng(0).permutation(len(points))
@@ -59,6 +63,7 @@ def table(folder: Path | None) -> None:
         if folder is not None:
             _draw(points, found, folder / f"{name}.png")
     print(f"\n{exact} of {len(sets)} sets of known order come back whole.\n")
+    print(HEADER)
     clouds = [*sorted((LARGE / "pointsets").glob("*.csv")),
               *sorted((LARGE / "truth_curves").glob("*cloud*.csv"))]  # fmt: skip
     for path in clouds:
