@@ -28,9 +28,9 @@ class Reduction {
               Interruption &interruption)
         : data_(data), ring_(ring), limits_(limits), interruption_(interruption) {}
 
-    // Moves until none helps any more, or the caller has had enough.
+    // Moves until none helps any more, or the caller has had enough. What has failed is not tried
+    // again, in a later run neither, unless a neighbour or its being a corner has changed.
     void run() {
-        failed_.clear();
         for (int pass = 0; pass < limits_.passes; ++pass) {
             bool changed = false;
             for (int side = 1; side <= limits_.widest; ++side)
@@ -87,7 +87,8 @@ class Reduction {
         std::vector<Section> window = ring_.window(i0, i1);
         std::vector<Index> key{i - i0, old};
         for (const int c : costs) key.push_back(c);
-        for (const Section &s : window) key.insert(key.end(), {ring_.origin(s), s.cost()});
+        for (const Section &s : window)
+            key.insert(key.end(), {ring_.origin(s), s.cost(), s.corner});
         if (failed_.contains(key)) return false;
         std::vector<Section> fresh = replacement(window, i - i0, old, costs);
         if (!fresh.empty()) {
