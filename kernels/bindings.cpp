@@ -236,14 +236,14 @@ NB_MODULE(_kernels, m) {
 
     m.def(
         "fit_sections",
-        [](In2 points, bool closed, InIndices corner, InIndices forced, InIndices gentle,
+        [](In2 points, bool closed, InIndices joint, InIndices forced, InIndices gentle,
            std::int64_t stride, double resolution, double tolerance, int largest_degree,
            bool smooth, bool ends_fixed, double least_corner, int passes, int widest, nb::object ask,
            std::optional<In2> observed, double noise) {
             ss::Interruption asking = interruption(ask);
             nb::gil_scoped_release release;
             const ss::LaidOutOutline outline(
-                vectors(points), closed, {indices(corner), indices(forced), indices(gentle)},
+                vectors(points), closed, {indices(joint), indices(forced), indices(gentle)},
                 stride, resolution);
             std::vector<std::int64_t> degrees, counts;
             std::vector<double> knots, coordinates;
@@ -259,7 +259,7 @@ NB_MODULE(_kernels, m) {
             }
             return std::make_tuple(degrees, counts, knots, coordinates);
         },
-        "points"_a.noconvert(), "closed"_a, "corner"_a.noconvert(),
+        "points"_a.noconvert(), "closed"_a, "joint"_a.noconvert(),
         "forced"_a.noconvert(), "gentle"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a, "largest_degree"_a,
         "smooth"_a, "ends_fixed"_a, "least_corner"_a, "passes"_a, "widest"_a, "ask"_a,
         "observed"_a.none().noconvert() = nb::none(), "noise"_a = 0.0);

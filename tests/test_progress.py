@@ -94,7 +94,7 @@ def test_an_error_in_the_callback_comes_through():
 
 @pytest.mark.parametrize("form", ["pieces", "spline"])
 def test_an_interrupt_reaches_into_the_loops(form):
-    timer = threading.Timer(0.5, signal.raise_signal, (signal.SIGINT,))
+    timer = threading.Timer(0.1, signal.raise_signal, (signal.SIGINT,))
     timer.start()
     try:
         with pytest.raises(KeyboardInterrupt):

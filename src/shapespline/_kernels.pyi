@@ -121,7 +121,7 @@ def thinned(
 def fit_sections(
     points: FloatArray,  # (n, 2)
     closed: bool,
-    corner: IntArray,  # (n,), 0 or 1
+    joint: IntArray,  # (n,), sum of 1 corner, 2 pinned, 4 and 8 tangent to a stub
     forced: IntArray,  # (n,), 0 or 1
     gentle: IntArray,  # (n,), 0 or 1
     stride: int,

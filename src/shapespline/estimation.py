@@ -25,7 +25,7 @@ from shapespline.solvers.iteration import Limits
 
 if TYPE_CHECKING:
     from shapespline.drawing import Piece
-    from shapespline.sections import Effort
+    from shapespline.section_search import Effort
     from shapespline.typing import ArrayLike, FloatArray, IntArray
 
 # What clean data cannot show or nobody can see: a part of the median distance between points, but

@@ -37,6 +37,7 @@ from shapespline.tolerance import (
     Ends,
     Form,
     checked_corners,
+    checked_held,
     fit_within,
     tolerance_length,
 )
@@ -63,6 +64,9 @@ def fit_curve(
     corners: Literal["auto", "free"] | ArrayLike | None = "auto",
     form: Form = "pieces",
     ends: Ends = "free",
+    end_tangents: tuple[ArrayLike | None, ArrayLike | None] | None = None,
+    through: ArrayLike | None = None,
+    symmetric: bool = False,
     effort: Effort = "balanced",
     weights: ArrayLike | None = None,
     knots: Knots = "balanced",
@@ -102,6 +106,16 @@ def fit_curve(
         Of an open curve: "fixed" begins and ends in the first and last point, exactly. Pieces
         whose ends are free may need fewer points; one spline always has fixed ends, but where it
         is estimated from noisy points.
+    end_tangents : pair of array_like, shape (2,), or None, optional
+        Directions (x, y) in which an open curve begins and ends, exactly; None where that is free.
+        Its ends are fixed then. Within a tolerance, in pieces.
+    through : array_like of indices, optional
+        Points that the curve goes through, up to rounding; each is a node of it, smooth where it is
+        no corner. Within a tolerance, in pieces.
+    symmetric : bool
+        Whether a mirror symmetry that a closed outline has within a part of the tolerance is kept
+        exactly: one half is fitted and reflected, which may take some points more. Without, that
+        is done where it takes none.
     effort : {"fast", "balanced", "smallest"}
         How long to search.
     weights : array_like, shape (n,), optional
@@ -155,6 +169,8 @@ def fit_curve(
         )
     if not isinstance(outliers, bool | np.bool_):
         raise InvalidInputError(f"outliers must be True or False, got {outliers!r}")
+    if not isinstance(symmetric, bool | np.bool_):
+        raise InvalidInputError(f"symmetric must be True or False, got {symmetric!r}")
     if outliers and len(left_out := find_outliers(contour)):
         given = np.flatnonzero(np.isin(contour.source, left_out))
         rest = Contour.silently(
@@ -171,6 +187,9 @@ def fit_curve(
             corners=_renumbered(corners, left_out, len(contour)),
             form=form,
             ends=ends,
+            end_tangents=end_tangents,
+            through=_renumbered_nodes(through, left_out, contour),
+            symmetric=symmetric,
             effort=effort,
             weights=None if weights is None else np.delete(np.asarray(weights), given),
             knots=knots,
@@ -207,8 +226,13 @@ def fit_curve(
         if weights is not None:
             raise InvalidInputError("weights act in least squares only: leave out the tolerance")
         length = tolerance_length(tolerance, contour)
+        held = checked_held(contour, ends, end_tangents, through)
         watch = Watch(callback, time_limit)
-        return fit_within(contour, length, degree, corners, form, ends, effort, watch)
+        return fit_within(contour, length, degree, corners, form, held, symmetric, effort, watch)
+    if end_tangents is not None or through is not None or symmetric:
+        raise InvalidInputError(
+            "end_tangents, through and symmetric act within a tolerance: give one"
+        )
     watch = Watch(callback, time_limit)
     summed = checked_weights(weights, contour)
     if n_control_points is None:
@@ -257,6 +281,20 @@ def _renumbered(
     return staying - np.searchsorted(left_out, staying)
 
 
+def _renumbered_nodes(
+    through: ArrayLike | None, left_out: IntArray, contour: Contour
+) -> IntArray | None:
+    """The points to go through among those that stay; an outlier among them is an error."""
+    if through is None:
+        return None
+    nodes = checked_held(contour, "free", None, through).through
+    if len(both := np.intersect1d(nodes, left_out)):
+        raise InvalidInputError(
+            f"through must hold no outliers, got {both.tolist()}; leave them out, or outliers=False"
+        )
+    return nodes - np.searchsorted(left_out, nodes)
+
+
 def _estimated(
     contour: Contour,
     degree: int,
@@ -303,7 +341,8 @@ def _estimated(
             if frame.reversed:
                 spline, parameters = reversed_curve(spline), 1.0 - parameters
             return replace(fit, contour=contour, spline=spline, parameters=parameters)
-    fit = fit_within(contour, shown.band, degree, corners, form, ends, effort, watch)
+    held = checked_held(contour, ends, None, None)
+    fit = fit_within(contour, shown.band, degree, corners, form, held, False, effort, watch)
     kept = verified_fit(
         contour, fit.spline, tolerance=None, method=fit.method, sections=fit.sections
     )

@@ -67,6 +67,11 @@ class WorkingFrame(NamedTuple):
         work = Contour.trusted(moved, contour.closed, accuracy)
         return cls(work, order, middle, scale, backwards)
 
+    @classmethod
+    def of_working(cls, contour: Contour) -> WorkingFrame:
+        """The frame of a contour that is in the order and unit of one already."""
+        return cls(contour, np.arange(len(contour)), np.zeros(2), 1.0, False)
+
     def thinned(self, tolerance: float, marked: IntArray) -> WorkingFrame:
         """The frame without the points that a search within a tolerance does not need.
 

@@ -10,6 +10,7 @@ from shapespline import _kernels
 from shapespline.corners import find_corners
 from shapespline.errors import InvalidInputError
 from shapespline.frame import WorkingFrame
+from shapespline.held import Held
 from shapespline.noise import noise_level
 
 if TYPE_CHECKING:
@@ -33,17 +34,23 @@ class SearchOutline(NamedTuple):
     """What a search within a tolerance knows about a contour before it begins.
 
     ``frame`` holds the points in its order and unit, ``tolerance`` is in that unit too. ``corners``
-    are indices of its points, ``gentle`` (n,) is 1 where the outline hardly turns.
+    are indices of its points, ``gentle`` (n,) is 1 where the outline hardly turns, ``held`` is in
+    its order and direction.
     """
 
     frame: WorkingFrame
     tolerance: float
     corners: IntArray
     gentle: IntArray
+    held: Held = Held()
 
     @classmethod
     def of(
-        cls, contour: Contour, tolerance: float, corners: CornerChoice | ArrayLike | None
+        cls,
+        contour: Contour,
+        tolerance: float,
+        corners: CornerChoice | ArrayLike | None,
+        held: Held | None = None,
     ) -> SearchOutline:
         """The outline of a contour; corners as `fit_pieces` takes them.
 
@@ -60,25 +67,28 @@ class SearchOutline(NamedTuple):
         frame = WorkingFrame.of(contour)
         aim, n = tolerance * frame.scale, len(contour)
         gentle = np.ones(n, dtype=np.int64)
+        held = _in_frame(Held() if held is None else held, frame)
         if corners is None:
-            return cls(frame, aim, np.empty(0, dtype=np.int64), gentle)
+            return cls(frame, aim, np.empty(0, dtype=np.int64), gentle, held)
         if isinstance(corners, str):
             if corners not in ("auto", "free"):
                 raise InvalidInputError(
                     f"corners must be 'auto', 'free', None or indices, got {corners!r}"
                 )
             found = find_corners(frame.contour, aim)
-            return cls(frame, aim, found.indices, (found.turns < GENTLE_TURN).astype(np.int64))
+            gentle = (found.turns < GENTLE_TURN).astype(np.int64)
+            return cls(frame, aim, found.indices, gentle, held)
         given = np.asarray(corners)
         if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
             raise InvalidInputError(f"corners must be one list of whole numbers, got {corners!r}")
         if given.size and (given.min() < 0 or given.max() >= n):
             raise InvalidInputError(f"corners must be indices below {n}, got {given.tolist()}")
-        return cls(frame, aim, np.unique(frame.place[given.astype(np.int64)]), gentle)
+        return cls(frame, aim, np.unique(frame.place[given.astype(np.int64)]), gentle, held)
 
     def thinned(self) -> SearchOutline:
         """The outline without the points that the search does not need, its tolerance less so."""
-        frame = self.frame.thinned(self.tolerance, self.corners)
+        stay = np.union1d(self.corners, self.held.through)
+        frame = self.frame.thinned(self.tolerance, stay)
         if frame is self.frame:
             return self
         place = self.frame.place[frame.order]
@@ -87,6 +97,7 @@ class SearchOutline(NamedTuple):
             self.tolerance - frame.slack,
             np.flatnonzero(np.isin(place, self.corners)),
             self.gentle[place],
+            self.held._replace(through=np.flatnonzero(np.isin(place, self.held.through))),
         )
 
     @property
@@ -103,6 +114,15 @@ class SearchOutline(NamedTuple):
         np.maximum.at(longest, inside, _lengths(polyline, fine))
         runs = (np.diff(coarse) > FEWEST_STRAIGHT) & (longest >= ONE_CHORD * lengths)
         return bool((runs & (lengths >= LEAST_TOLERANCES * self.tolerance)).any())
+
+
+def _in_frame(held: Held, frame: WorkingFrame) -> Held:
+    """What is held, in the order and direction of a frame."""
+    begin, end = held.tangents
+    if frame.reversed:
+        begin, end = (None if t is None else -t for t in (end, begin))
+    through = np.unique(frame.place[held.through]) if len(held.through) else held.through
+    return held._replace(through=through, tangents=(begin, end))
 
 
 def _chords(polyline: FloatArray, distance: float) -> IntArray:

@@ -44,6 +44,7 @@ def fit_shape(
     callback: Callback | None = None,
     time_limit: float | None = None,
     ends: Ends = "free",
+    symmetric: bool = False,
     outliers: bool = False,
     shared_boundaries: bool = False,
 ) -> Drawing:
@@ -58,7 +59,7 @@ def fit_shape(
         Data units, or a part of the box diagonal of the whole shape, such as ``"0.1%"``.
     n_control_points : int, optional
         Number of control points of each curve; chosen for each contour when neither is given.
-    degree, corners, form, effort, method, callback, time_limit, ends, outliers
+    degree, corners, form, effort, method, callback, time_limit, ends, symmetric, outliers
         See `fit_curve`; the limit is that of each contour.
     shared_boundaries : bool
         Fit boundaries that contours share (the same points, as far as a hundredth of the
@@ -104,6 +105,7 @@ def fit_shape(
             callback=callback,
             time_limit=time_limit,
             ends=ends,
+            symmetric=symmetric,
             outliers=outliers,
         )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
@@ -9,10 +10,13 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from shapespline.arrays import float_array, is_number
+from shapespline.drawing import Status
 from shapespline.errors import InvalidInputError
+from shapespline.held import Held
 from shapespline.outline import FEWEST_STRAIGHT, STRAIGHT_PART, SearchOutline
 from shapespline.removal import fit_spline
 from shapespline.sections import ROUGH_PART, fit_pieces
+from shapespline.symmetry import fit_mirrored
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
@@ -20,7 +24,7 @@ if TYPE_CHECKING:
     from shapespline.drawing import Fit, Piece
     from shapespline.frame import WorkingFrame
     from shapespline.progress import Watch
-    from shapespline.typing import ArrayLike
+    from shapespline.typing import ArrayLike, FloatArray, IntArray
 
 Form = Literal["pieces", "spline"]
 Ends = Literal["free", "fixed"]
@@ -59,7 +63,8 @@ def fit_within(
     degree: int,
     corners: Literal["auto", "free"] | ArrayLike | None,
     form: Form,
-    ends: Ends,
+    held: Held,
+    symmetric: bool,
     effort: Effort,
     watch: Watch,
 ) -> Fit:
@@ -68,24 +73,40 @@ def fit_within(
     if form == "spline":
         if not (corners is None or isinstance(corners, str)):
             raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
+        if held.anything:
+            raise InvalidInputError("end_tangents and through act with form='pieces' only")
+        if symmetric:
+            raise InvalidInputError("symmetric acts with form='pieces' only")
         return _single(contour, tolerance, degree, effort, watch)
     free = isinstance(corners, str) and corners == "free"
-    outline = SearchOutline.of(contour, tolerance, corners)
+    if free and any(tangent is not None for tangent in held.tangents):
+        raise InvalidInputError(
+            "end_tangents do not act with corners='free': joints are free there"
+        )
+    outline = SearchOutline.of(contour, tolerance, corners, held)
     smooth = None
-    if not len(outline.corners) and not outline.has_straight_runs:
+    if not (len(outline.corners) or held.anything or symmetric or outline.has_straight_runs):
         smooth = _single(contour, tolerance, degree, effort, watch, outline.frame)
         if _followed(smooth) or watch.ended_as:
             return smooth
-    found = fit_pieces(
-        contour,
-        tolerance,
-        corners=corners,
-        degree=degree,
-        effort=effort,
-        ends_fixed=ends == "fixed",
-        watch=watch,
-        outline=outline,
-    )
+    mirrored = None
+    if not (free or held.anything):
+        mirrored = fit_mirrored(
+            contour, tolerance, degree=degree, effort=effort, watch=watch, outline=outline
+        )
+    if mirrored is None or not symmetric:
+        found = fit_pieces(
+            contour,
+            tolerance,
+            corners=corners,
+            degree=degree,
+            effort=effort,
+            held=held,
+            watch=watch,
+            outline=outline,
+        )
+    if mirrored is not None and (symmetric or mirrored.n_stored_points <= found.n_stored_points):
+        found = mirrored
     fit = _ended(
         verified_fit(
             contour,
@@ -97,7 +118,18 @@ def fit_within(
         ),
         watch,
     )
-    if watch.ended_as or (len(outline.corners) and not free):
+    if found.tangent_error:
+        turn = np.degrees(found.tangent_error)
+        fit = replace(
+            fit,
+            status=Status.EXCEEDED.saying(
+                f"an end tangent is missed by {turn:.3g} degrees: {fit.status.value}; take a larger"
+                " tolerance, or a tangent nearer to the data"
+            ),
+        )
+    if found is mirrored and symmetric:
+        return fit
+    if watch.ended_as or held.anything or (len(outline.corners) and not free):
         return fit
     if not free and any(_drawn_straight(piece, contour, tolerance) for piece in found.pieces):
         return fit
@@ -153,10 +185,61 @@ def checked_corners(
     """The corners as a caller may say them; indices sorted, each once."""
     if corners is None or (isinstance(corners, str) and corners in ("auto", "free")):
         return corners
-    message = f"corners must be 'auto', 'free', None or indices below {n}, got {corners!r}"
-    if isinstance(corners, str):
+    return _checked_indices(corners, n, "corners must be 'auto', 'free', None or indices below")
+
+
+def checked_held(
+    contour: Contour,
+    ends: Ends,
+    end_tangents: tuple[ArrayLike | None, ArrayLike | None] | None,
+    through: ArrayLike | None,
+) -> Held:
+    """What a fit must keep exactly, as a caller may say it.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> held = checked_held(Contour([(0, 0), (4, 3)]), "free", ((0, 5), None), None)
+    >>> held.ends, held.tangents
+    (True, (array([0., 1.]), None))
+    """
+    n = len(contour)
+    nodes = np.empty(0, dtype=np.int64)
+    if through is not None:
+        nodes = _checked_indices(through, n, "through must be None or indices below")
+    tangents: tuple[FloatArray | None, FloatArray | None] = (None, None)
+    if end_tangents is not None:
+        if contour.closed:
+            raise InvalidInputError("end_tangents act on open curves only: pass closed=False")
+        message = (
+            "end_tangents must be a pair of vectors (x, y), None where the direction is free,"
+            f" got {end_tangents!r}"
+        )
+        if isinstance(end_tangents, str) or not isinstance(end_tangents, Sequence | np.ndarray):
+            raise InvalidInputError(message)
+        if len(end_tangents) != 2:
+            raise InvalidInputError(message)
+        begin, end = (None if t is None else _direction(t, message) for t in end_tangents)
+        tangents = (begin, end)
+    at_ends = not contour.closed and bool(np.isin(nodes, (0, n - 1)).any())
+    fixed = ends == "fixed" or at_ends or any(tangent is not None for tangent in tangents)
+    return Held(fixed, nodes, tangents)
+
+
+def _direction(vector: ArrayLike, message: str) -> FloatArray:
+    """A unit vector."""
+    given = float_array(vector, "end_tangents")
+    length = float(np.hypot(*given)) if given.shape == (2,) else 0.0
+    if not 0 < length < np.inf:
         raise InvalidInputError(message)
-    given = float_array(corners, "corners").ravel()
+    return given / length
+
+
+def _checked_indices(values: ArrayLike, n: int, message: str) -> IntArray:
+    """Indices of a contour's points, sorted, each once."""
+    if isinstance(values, str):
+        raise InvalidInputError(f"{message} {n}, got {values!r}")
+    given = float_array(values, message.split()[0]).ravel()
     if (given != np.floor(given)).any() or (given < 0).any() or (given >= n).any():
-        raise InvalidInputError(message)
+        raise InvalidInputError(f"{message} {n}, got {values!r}")
     return np.unique(given.astype(np.int64))

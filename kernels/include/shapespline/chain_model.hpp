@@ -27,10 +27,11 @@ struct JointTerm {
 };
 
 // How a chain is held at one end: its node may be fixed, and so may the direction there, by the
-// control point beyond it.
+// control point beyond it; exactly, if that is required.
 struct ChainEnd {
     bool fixed = false;
     std::optional<Vec2> beyond = std::nullopt;
+    bool exact = false;
 };
 
 class ChainModel {
@@ -132,9 +133,17 @@ class ChainModel {
     std::span<const Vec2> data() const { return data_; }
     Index base() const { return sections_.front().first; }
     bool node_free(std::size_t i) const {
-        return !(i == 0 && begin_.fixed) && !(i == size() && end_.fixed);
+        if (i == 0) return !begin_.fixed;
+        return i == size() ? !end_.fixed : !sections_[i].pinned;
     }
     const std::vector<std::size_t> &tangent_joints() const { return tangent_joints_; }
+    // Whether a tangent joint is one that is required.
+    bool exact() const {
+        return begin_.exact || end_.exact ||
+               std::any_of(tangent_joints_.begin(), tangent_joints_.end(), [&](std::size_t i) {
+                   return i > 0 && i < size() && sections_[i].required;
+               });
+    }
     std::size_t point_offset(std::size_t s) const { return point_offset_[s]; }
     std::size_t knot_offset(std::size_t s) const { return knot_offset_[s]; }
     SectionView section(const ChainState &state, std::size_t s) const {

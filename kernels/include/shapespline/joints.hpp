@@ -25,6 +25,8 @@ class JointSmoother {
         while (merge_one()) {
         }
         if (ring_.closed()) start_at_corner();
+        for (long i = 1; i < ring_.size(); ++i)
+            if (ring_.at(i).required) bend(i);
         for (long i = 0; i < ring_.size(); ++i) mark(i);
         for (long i = 0; i < ring_.size();) i = align_chain(i);
         if (ring_.closed() && ring_.size() > 1) align_seam();
@@ -42,7 +44,7 @@ class JointSmoother {
     bool merge_one() {
         for (long i = 0; i < (ring_.closed() ? ring_.size() : ring_.size() - 1); ++i) {
             const Section &a = ring_.at(i), &b = ring_.at(i + 1);
-            if (ring_.size() <= 2 || !a.curved() || !b.curved() || b.corner) continue;
+            if (ring_.size() <= 2 || !a.curved() || !b.curved() || b.barred()) continue;
             if (failed_.contains(ring_.origin(b))) continue;
             if (!merge(i)) failed_.insert(ring_.origin(b));
             return true;
@@ -70,15 +72,24 @@ class JointSmoother {
 
     void start_at_corner() {
         for (long i = 0; i < ring_.size(); ++i)
-            if (ring_.at(i).corner) return ring_.rotate(i);
+            if (ring_.at(i).barred()) return ring_.rotate(i);
     }
 
     void mark(long i) { ring_.at(i).tangent = i > 0 && smooth_at(i); }
 
     bool smooth_at(long i) const {
         const Section &s = ring_.at(i);
-        return !s.corner && (s.curved() || ring_.at(i - 1).curved()) &&
-               std::fabs(ring_.turn(i)) < kSteepest;
+        return s.required || (!s.corner && (s.curved() || ring_.at(i - 1).curved()) &&
+                              std::fabs(ring_.turn(i)) < kSteepest);
+    }
+
+    // Of two lines at a joint that must be tangent the one that is no stub becomes a curve.
+    void bend(long i) {
+        if (ring_.at(i - 1).curved() || ring_.at(i).curved()) return;
+        ring_.at(i).tangent = true;
+        const bool at_end = ring_.at(i).at_end;
+        const std::vector<int> raise{at_end ? 2 : 0, at_end ? 0 : 2};
+        if (!align(i - 1, i, raise)) ring_.at(i).tangent = false;
     }
 
     // Fits the chain of tangent joints from section i; returns the section to go on with. Where the
@@ -90,19 +101,71 @@ class JointSmoother {
         while (last + 1 < ring_.size() && ring_.at(last + 1).tangent) ++last;
         if (last == i) return last + 1;
         if (align(i, last)) return last + 1;
+        if (!turned_ && turn_to_stubs()) return i;
+        const auto turn = [&](long k) {  // what is required is given up last
+            return (ring_.at(k).required ? 1e-3 : 1.0) * std::fabs(ring_.turn(k));
+        };
         long steepest = i + 1;
         for (long k = i + 2; k <= last; ++k)
-            if (std::fabs(ring_.turn(k)) > std::fabs(ring_.turn(steepest))) steepest = k;
-        const bool gentle = gentle_[ring_.origin(ring_.at(steepest))] != 0;
-        for (int by = 2; gentle && by <= most_raise_; by += 2) {
+            if (turn(k) > turn(steepest)) steepest = k;
+        const Section &bend = ring_.at(steepest);
+        const bool worth = bend.required || gentle_[ring_.origin(bend)] != 0;
+        for (int by = 2; worth && by <= most_raise_; by += 2) {
             std::vector<int> raise(last - i + 1, 0);
             raise[steepest - 1 - i] = raise[steepest - i] = by;
             if (align(i, last, raise)) return last + 1;
         }
-        const double least = last - i >= kLongChain ? 0.5 * std::fabs(ring_.turn(steepest)) : 4.0;
+        const double least = last - i >= kLongChain ? 0.5 * turn(steepest) : 4.0;
         for (long k = i + 1; k <= last; ++k)
-            if (k == steepest || std::fabs(ring_.turn(k)) >= least) ring_.at(k).tangent = false;
+            if (k == steepest || turn(k) >= least) ring_.at(k).tangent = false;
         return i;
+    }
+
+    // Short curves at both ends of an open outline turn into the directions of their stubs; once.
+    bool turn_to_stubs() {
+        turned_ = true;
+        bool any = false;
+        for (const bool at_end : {false, true})
+            for (long k = 1; k < ring_.size(); ++k) {
+                if (!ring_.at(k).required || ring_.at(k).at_end != at_end) continue;
+                // The other end is not asked to be right already.
+                for (long other = 1; other < ring_.size(); ++other)
+                    if (ring_.at(other).required) ring_.at(other).tangent = other == k;
+                any |= turn_at(k);
+                break;
+            }
+        for (long k = 1; k < ring_.size(); ++k) ring_.at(k).tangent |= ring_.at(k).required;
+        return any;
+    }
+
+    bool turn_at(long k) {
+        const bool at_end = ring_.at(k).at_end;
+        const Section whole = ring_.at(at_end ? k - 1 : k);
+        const Vec2 node = at_end ? whole.points.back() : whole.points.front();
+        for (const double reach : {30.0, 10.0, 3.0, 1.0}) {
+            const double enough = reach * tolerance_;
+            Index cut = at_end ? whole.last : whole.first;
+            while (cut > whole.first && at_end && norm(data_[cut] - node) < enough) --cut;
+            while (cut < whole.last && !at_end && norm(data_[cut] - node) < enough) ++cut;
+            if (cut - whole.first < 2 || whole.last - cut < 2) continue;
+            const auto part = [&](Index first, Index last, Vec2 begin, Vec2 end, bool is_near) {
+                const int cost = is_near ? kSectionDegree : std::max(whole.cost(), 2);
+                return fit_section(data_,
+                                   blank_section(data_, first, last, begin, end, cost,
+                                                 largest_degree_),
+                                   {tolerance_, kStartRounds})
+                    .sections.front();
+            };
+            std::vector<Section> window{
+                part(whole.first, cut, whole.points.front(), data_[cut], !at_end),
+                part(cut + 1, whole.last, data_[cut], whole.points.back(), at_end)};
+            window[0].join_like(whole);
+            window[1].join_like({.tangent = true});
+            const Section stub = ring_.at(at_end ? k : k - 1);
+            window.insert(at_end ? window.end() : window.begin(), stub);
+            if (accept(k - 1, k, window, kAlignRounds)) return true;
+        }
+        return false;
     }
 
     // The joint where the sections of an outline without corners begin and end: turned inside the
@@ -152,8 +215,7 @@ class JointSmoother {
         const Section start = blank_section(data_, s.first, s.last, s.points.front(),
                                             s.points.back(), s.cost() + by, largest_degree_);
         Section result = fit_section(data_, start, {tolerance_, kStartRounds}).sections.front();
-        result.corner = s.corner;
-        result.tangent = s.tangent;
+        result.join_like(s);
         return result;
     }
 
@@ -171,6 +233,7 @@ class JointSmoother {
     int largest_degree_, most_raise_ = 0;
     std::span<const Index> gentle_;
     std::set<Index> failed_;
+    bool turned_ = false;
 };
 
 }  // namespace shapespline

@@ -14,7 +14,6 @@ namespace shapespline {
 struct MinimaxLimits {
     double tolerance;
     int rounds;
-    double largest_turn = 1.0;  // degrees, at tangent joints
 };
 
 struct MinimaxResult {
@@ -76,7 +75,8 @@ class MinimaxFit {
   private:
     // The largest distance; a joint that turns too far counts as one just beyond the tolerance.
     double measured() const {
-        const double distance = largest_distance(), excess = largest_turn() - limits_.largest_turn;
+        const double distance = largest_distance();
+        const double excess = largest_turn() - (model_.exact() ? kExactTurn : kLargestTurn);
         if (!(excess > 0.0)) return distance;
         return std::max(distance, 1.001 * limits_.tolerance) * (1.0 + 0.02 * excess);
     }
@@ -96,6 +96,8 @@ class MinimaxFit {
         best_ = std::numeric_limits<double>::infinity();
     }
 
+    // Degrees that a tangent joint may turn.
+    static constexpr double kLargestTurn = 1.0, kExactTurn = 0.02;
     static constexpr double kNodeWeight = 0.1, kLeastDataWeight = 1e-4, kLeastNodeWeight = 1e-2;
     static constexpr double kJointWeight = 0.2, kJointGrowth = 1.3, kJointAngle = 2.0 / 57.3;
     static constexpr int kMostStalls = 5;

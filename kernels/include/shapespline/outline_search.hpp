@@ -14,7 +14,7 @@ struct OutlineSearch {
     std::span<const Vec2> data;  // an open outline, or three laps of a closed one and its first
     Index period;                // data of one lap, 0 if open
     Candidates candidates;
-    std::vector<NodeKind> nodes;  // of each candidate
+    std::vector<Joint> nodes;  // of each candidate
     std::span<const Index> gentle;  // of each datum of a lap: whether the data hardly turn there
     double tolerance;
     int largest_degree;
@@ -57,7 +57,7 @@ struct OutlineSearch {
                     all_kept = false;
                 }
                 sections.push_back(at->second.sections.front());
-                sections.back().corner = nodes[step.from].corner;
+                sections.back().join_like(nodes[step.from]);
             }
             if (all_kept) break;
         }
@@ -69,7 +69,7 @@ struct OutlineSearch {
         const std::size_t n = candidates.at.size();
         std::vector<std::size_t> barrier(n, n - 1);
         for (std::size_t k = n - 1; k-- > 0;)
-            barrier[k] = nodes[k + 1].corner ? k + 1 : barrier[k + 1];
+            barrier[k] = nodes[k + 1].barred() ? k + 1 : barrier[k + 1];
         const ReachSearch search(data, candidates, tolerance, largest_degree);
         std::vector<Reach> reaches;
         for (int cost = 1; cost <= largest_degree; ++cost)
@@ -102,11 +102,11 @@ struct OutlineSearch {
         return best;
     }
 
-    // A corner is a node of every path. Without corners some node lies in any window that one
+    // A corner is a node of every path, a pinned one too. Without them some node lies in any window that one
     // section can span: the shortest such window is tried, at some places.
     std::vector<std::size_t> starts(const std::vector<Reach> &reaches) const {
         for (std::size_t k = 0; k < candidates.n_starts; ++k)
-            if (nodes[k].corner) return {k};
+            if (nodes[k].barred()) return {k};
         const auto span = [&](std::size_t k) {
             std::size_t furthest = 0;
             for (const Reach &reach : reaches) furthest = std::max(furthest, reach.last[k] - k);
@@ -161,10 +161,11 @@ struct OutlineSearch {
 // An outline as the search wants it: closed data in three laps, candidates in two.
 class LaidOutOutline {
   public:
-    // What is known about each point: 1 for a corner that is kept, for a point that must be a
-    // candidate node, for one where the data hardly turn.
+    // What is known about each point: the sum of 1 for a corner that is kept, 2 for a node that
+    // stays there, 4 and 8 for a joint that must be tangent to a stub before and behind it; 1 for a point that must be a candidate node;
+    // 1 for one where the data hardly turn.
     struct Marks {
-        std::span<const Index> corner, forced, gentle;
+        std::span<const Index> joint, forced, gentle;
     };
 
     // Candidates are every `stride`-th point and the forced ones, and more wherever the polyline
@@ -179,7 +180,9 @@ class LaidOutOutline {
         candidates_ = {{}, closed ? once.size() : once.size() - 1, closed};
         const auto add = [&](Index at) {
             candidates_.at.push_back(at);
-            nodes_.push_back({marks.corner[at % n_] != 0});
+            const Index kind = marks.joint[at % n_];
+            nodes_.push_back(
+                {(kind & 1) != 0, (kind & 2) != 0, (kind & 12) != 0, (kind & 8) != 0});
         };
         for (int lap = 0; lap < (closed ? 2 : 1); ++lap)
             for (const Index k : once) add(k + (closed ? (lap + 1) * n_ : 0));
@@ -228,7 +231,7 @@ class LaidOutOutline {
     bool closed_;
     std::span<const Index> gentle_;
     Candidates candidates_;
-    std::vector<NodeKind> nodes_;
+    std::vector<Joint> nodes_;
 };
 
 }  // namespace shapespline

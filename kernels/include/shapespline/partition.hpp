@@ -9,11 +9,6 @@
 
 namespace shapespline {
 
-// What a candidate node is like where two sections meet.
-struct NodeKind {
-    bool corner = false;
-};
-
 struct PathStep {
     std::size_t from, to;
     std::size_t reach;  // index of its class
@@ -32,7 +27,7 @@ struct JointCosts {
 
 class PathSearch {
   public:
-    PathSearch(const std::vector<Reach> &reaches, const std::vector<NodeKind> &nodes,
+    PathSearch(const std::vector<Reach> &reaches, const std::vector<Joint> &nodes,
                const JointCosts &costs)
         : reaches_(reaches), nodes_(nodes), costs_(costs) {}
 
@@ -84,8 +79,8 @@ class PathSearch {
         return best;
     }
 
-    double joint(const NodeKind &node, int before, int after) const {
-        if (node.corner) return 0.0;
+    double joint(const Joint &node, int before, int after) const {
+        if (node.corner || node.required) return 0.0;
         double cost = costs_.any;
         if (before == 0 && after == 0) cost += costs_.curve_curve;
         if (before == 1 && after == 1) cost += costs_.line_line;
@@ -112,7 +107,7 @@ class PathSearch {
     }
 
     const std::vector<Reach> &reaches_;
-    const std::vector<NodeKind> &nodes_;
+    const std::vector<Joint> &nodes_;
     JointCosts costs_;
 };
 

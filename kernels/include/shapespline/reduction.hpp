@@ -57,7 +57,7 @@ class Reduction {
 
     // Two sections into one.
     bool merge(long i, int side) {
-        if (!ring_.has(i + 1) || ring_.size() <= 2 || ring_.at(i + 1).corner) return false;
+        if (!ring_.has(i + 1) || ring_.size() <= 2 || ring_.at(i + 1).barred()) return false;
         const int both = ring_.at(i).cost() + ring_.at(i + 1).cost();
         for (int cost = std::max(both - 3, 1); cost < both; ++cost)
             if (attempt(i, 2, {cost}, side)) return true;
@@ -66,8 +66,8 @@ class Reduction {
 
     // Three sections into two.
     bool squeeze(long i, int side) {
-        if (!ring_.has(i + 2) || ring_.size() <= 4 || ring_.at(i + 1).corner ||
-            ring_.at(i + 2).corner)
+        if (!ring_.has(i + 2) || ring_.size() <= 4 || ring_.at(i + 1).barred() ||
+            ring_.at(i + 2).barred())
             return false;
         const int a = ring_.at(i).cost(), b = ring_.at(i + 1).cost(), c = ring_.at(i + 2).cost();
         const int total = a + b + c - 1;
@@ -82,6 +82,10 @@ class Reduction {
     bool attempt(long i, long old, const std::vector<int> &costs, int side) {
         if (limits_.largest_degree == 1 && *std::max_element(costs.begin(), costs.end()) > 1)
             return false;
+        // A line cannot turn into the direction that it must have.
+        const bool required =
+            ring_.at(i).required || (ring_.has(i + old) && ring_.at(i + old).required);
+        if (required && *std::min_element(costs.begin(), costs.end()) == 1) return false;
         auto [i0, i1] = window_around(i, old, side);
         if (ring_.closed() && i1 - i0 + 1 >= ring_.size()) return false;
         std::vector<Section> window = ring_.window(i0, i1);
@@ -139,11 +143,9 @@ class Reduction {
             if (cut - a.first < 1 || b.last - cut < 2) return {};
             fresh.push_back(section(a.first, cut, begin, data_[cut], costs[0]));
             fresh.push_back(section(cut + 1, b.last, data_[cut], end, costs[1]));
-            fresh[1].sections[0].corner = false;
-            fresh[1].sections[0].tangent = limits_.smooth;
+            fresh[1].sections[0].join_like({.tangent = limits_.smooth});
         }
-        fresh[0].sections[0].corner = a.corner;
-        fresh[0].sections[0].tangent = a.tangent;
+        fresh[0].sections[0].join_like(a);
         std::vector<Section> sections;
         for (const MinimaxResult &result : fresh) {
             if (result.distance > kWorthFreeing * limits_.tolerance) return {};

@@ -22,19 +22,30 @@ inline constexpr int kSectionTerms = kSectionDegree + 1;
 // Index into the data; a closed outline is laid out in three laps, so that no window wraps.
 using Index = std::int64_t;
 
-struct Section {
+// What a section's first node is, and how the section begins there.
+struct Joint {
+    bool corner = false;    // a corner that is kept
+    bool pinned = false;    // the node stays where its datum is
+    bool required = false;  // the joint must be tangent to a straight stub, that before the node ...
+    bool at_end = false;    // ... or that behind it
+    bool tangent = false;   // the section starts in the direction in which its neighbour ends
+
+    // No section reaches across.
+    bool barred() const { return corner || pinned; }
+};
+
+struct Section : Joint {
     int degree = 1;
     std::vector<double> knots;       // clamped, over [0, 1]
     std::vector<Vec2> points;        // control points; the first and the last are nodes
     Index first = 0, last = 0;       // its data, inclusive; neighbours share nodes but no data
     std::vector<double> parameters;  // foot parameters of its data
-    bool corner = false;             // it starts at a corner that is kept
-    bool tangent = false;            // it starts in the direction in which its neighbour ends
 
     // Stored points: each section counts its end node.
     int cost() const { return static_cast<int>(points.size()) - 1; }
     bool curved() const { return cost() > 1; }
     Index count() const { return last - first + 1; }
+    void join_like(const Joint &other) { static_cast<Joint &>(*this) = other; }
     Vec2 begin_direction() const { return points[1] - points[0]; }
     Vec2 end_direction() const { return points.back() - points[points.size() - 2]; }
 };

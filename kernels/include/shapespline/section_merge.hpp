@@ -78,8 +78,7 @@ inline MinimaxResult merged_section(std::span<const Vec2> data, const Section &a
         MinimaxResult other = fit_section(data, start, limits);
         if (other.distance < result.distance) result = std::move(other);
     }
-    result.sections.front().corner = a.corner;
-    result.sections.front().tangent = a.tangent;
+    result.sections.front().join_like(a);
     return result;
 }
 

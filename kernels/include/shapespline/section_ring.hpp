@@ -61,12 +61,12 @@ class SectionRing {
     ChainEnd begin_of(long i) const {
         if (!has(i - 1)) return {ends_fixed_};
         if (!at(i).tangent) return {true};
-        return {true, at(i - 1).points[at(i - 1).points.size() - 2]};
+        return {true, at(i - 1).points[at(i - 1).points.size() - 2], at(i).required};
     }
     ChainEnd end_before(long i) const {
         if (!has(i)) return {ends_fixed_};
         if (!at(i).tangent) return {true};
-        return {true, at(i).points[1]};
+        return {true, at(i).points[1], at(i).required};
     }
 
     // Makes section i the first.

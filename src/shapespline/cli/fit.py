@@ -112,6 +112,9 @@ def fit(
         Literal["free", "fixed"],
         typer.Option(help="Of open curves: fixed ends are the first and last point, exactly."),
     ] = "free",
+    symmetric: Annotated[
+        bool, typer.Option("--symmetric", help="Keep a mirror symmetry of closed outlines exactly.")
+    ] = False,
     outliers: Annotated[
         bool, typer.Option("--outliers", help="Leave out points that jump off the path and back.")
     ] = False,
@@ -151,6 +154,7 @@ def fit(
         "form": form,
         "effort": effort,
         "ends": ends,
+        "symmetric": symmetric,
         "outliers": outliers,
         "time_limit": time_limit,
         "shared_boundaries": shared_boundaries,

@@ -1,0 +1,147 @@
+"""One run of the structured search: its arrays in, pieces with exact tangents out."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.corners import LEAST_TURN
+from shapespline.drawing import Piece
+from shapespline.nodes import aligned
+from shapespline.stubs import stubbed, without_stubs
+
+if TYPE_CHECKING:
+    from shapespline.outline import SearchOutline
+    from shapespline.progress import Watch
+    from shapespline.typing import FloatArray
+
+# Candidate nodes on a whole outline, whatever the stride.
+LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
+# Pieces shorter than this part of the curve are roundings.
+SPECK = 1e-12
+# A corner that the fit turns by less than this part of what makes a corner is given up.
+RELEASE = 0.7
+# Control points may move by this part of the tolerance to make a tangent exact: it is less than
+# what the first aim leaves.
+LARGEST_MOVE = 0.002
+# The same for a fit to noisy points, in standard deviations of the noise.
+OBSERVED_MOVE = 0.1
+# What the kernel is told about the joint at a point, summed.
+CORNER, PINNED, AFTER_STUB, BEFORE_STUB = 1, 2, 4, 8
+
+Effort = Literal["fast", "balanced", "smallest"]
+
+
+class Search(NamedTuple):
+    """What one run of the kernel may do.
+
+    ``stride`` is the distance of candidate nodes in points, but more of them stand where the
+    polyline through them would leave the data by ``resolution`` tolerances; ``passes`` how often
+    all moves are tried; ``widest`` how many neighbours they take along.
+    """
+
+    stride: int
+    resolution: float
+    passes: int
+    widest: int
+
+
+# The reduction is a greedy search, and where it starts is worth some percent: the best of several
+# runs on different candidates is taken.
+SEARCHES: dict[Effort, tuple[Search, ...]] = {
+    "fast": (Search(12, 0.8, 1, 1),),
+    "balanced": (Search(12, 0.4, 6, 2),),
+    "smallest": tuple(
+        Search(stride, part, 6, 2) for stride in (3, 6, 12) for part in (0.15, 0.25, 0.4)
+    ),
+}
+
+
+class SectionSearch(NamedTuple):
+    """What stays the same over the runs on one outline.
+
+    Corners are candidate nodes always and nodes if they are kept; ``smooth`` makes other joints
+    tangent, where the outline is gentle at the price of some more points.
+    """
+
+    outline: SearchOutline
+    largest_degree: int
+    keep_corners: bool
+    smooth: bool
+    watch: Watch
+
+    def run(
+        self,
+        tolerance: float,
+        search: Search,
+        observed: FloatArray | None = None,
+        noise: float = 0.0,
+    ) -> tuple[Piece, ...]:
+        """One run of the kernel, in the end a least-squares fit to what was observed.
+
+        No pieces if it was ended before there were any.
+        """
+        outline = stubbed(self.outline)
+        contour = outline.frame.contour
+        n = len(contour)
+        joints, forced = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
+        forced[outline.corners] = 1
+        if self.keep_corners:
+            joints[outline.corners] += CORNER
+        joints[outline.held.through] += PINNED
+        joints[outline.held.after_stub] += AFTER_STUB
+        joints[outline.held.before_stub] += BEFORE_STUB
+        forced[joints > 0] = 1
+        degrees, counts, knots, coordinates = _kernels.fit_sections(
+            contour.points,
+            contour.closed,
+            joints,
+            forced,
+            outline.gentle,
+            max(min(search.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
+            search.resolution * tolerance,
+            tolerance,
+            self.largest_degree,
+            self.smooth,
+            outline.held.ends,
+            RELEASE * LEAST_TURN,
+            search.passes,
+            search.widest,
+            self.watch.ends,
+            observed,
+            noise,
+        )
+        pieces = _unpacked(degrees, counts, np.array(knots), np.array(coordinates))
+        if self.smooth and pieces:
+            largest_move = LARGEST_MOVE * tolerance if observed is None else OBSERVED_MOVE * noise
+            pieces = aligned(pieces, largest_move, closed=contour.closed)
+        return without_stubs(pieces, self.outline)
+
+
+def _unpacked(
+    degrees: list[int], counts: list[int], knots: FloatArray, coordinates: FloatArray
+) -> tuple[Piece, ...]:
+    """Pieces from the kernel's arrays end to end."""
+    pieces = []
+    k = m = 0
+    points = coordinates.reshape(-1, 2)
+    for degree, count in zip(degrees, counts, strict=True):
+        inner = count - degree - 1
+        kind = "line" if degree == 1 else "bezier" if inner == 0 else "spline"
+        pieces.append(Piece(kind, degree, knots[k : k + count + degree + 1], points[m : m + count]))
+        k, m = k + count + degree + 1, m + count
+    return _without_specks(pieces)
+
+
+def _without_specks(pieces: list[Piece]) -> tuple[Piece, ...]:
+    """The pieces but for those of next to no length, whose neighbours then meet exactly."""
+    lengths = [float(np.hypot(*np.diff(p.control_points, axis=0).T).sum()) for p in pieces]
+    least = SPECK * sum(lengths)
+    kept = [p for p, length in zip(pieces, lengths, strict=True) if length > least]
+    if len(kept) < len(pieces):
+        for before, after in pairwise(kept):
+            after.control_points[0] = before.control_points[-1]
+    return tuple(kept)
