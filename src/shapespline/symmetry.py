@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 SAMPLES, MOST_AXES, NEARLY = 512, 3, 0.9999
 # The error of an axis is known to this part of itself.
 ERROR_GAP = 0.1
+# So many times the samples place the axis: their error at corners is that of a quadrature.
+REFINED = 16
 # Each parabola looks at a tenth of the step of the one before.
 PARABOLAS = 5
 # The outline and its mirror image may differ by this part of the tolerance; the fit has the rest.
@@ -113,7 +115,8 @@ def _refined(
     contour: Contour, centre: FloatArray, at: Sampler, start: float, step: float
 ) -> Mirror:
     """The axis near an arc length at which its direction agrees best."""
-    t = (np.arange(SAMPLES // 2, dtype=np.float64) + 0.5) * step
+    finer = step / REFINED
+    t = (np.arange(REFINED * SAMPLES // 2, dtype=np.float64) + 0.5) * finer
 
     def product(s: float) -> NDArray[np.complex128]:
         return at(s + t) * at(s - t)
