@@ -249,7 +249,8 @@ def test_interrupting_leaves_nothing(tmp_path):
     r = 10 + np.sin(37 * t)
     np.save(outline, np.column_stack([r * np.cos(t), r * np.sin(t)]))
     child = subprocess.Popen(
-        [sys.executable, "-m", "shapespline", "fit", str(outline), "-o", str(output)],
+        # So many points and control points take several times the wait on any machine of today.
+        [sys.executable, "-m", "shapespline", "fit", str(outline), "-o", str(output), "-n", "300"],
         stderr=subprocess.PIPE,
         text=True,
         # Started in the background, as some runners do, the tests would hand on an ignored Ctrl-C.
