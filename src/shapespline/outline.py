@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.contour import Contour
 from shapespline.corners import find_corners
 from shapespline.errors import InvalidInputError
 from shapespline.frame import WorkingFrame
@@ -14,7 +15,6 @@ from shapespline.held import Held
 from shapespline.noise import noise_level
 
 if TYPE_CHECKING:
-    from shapespline.contour import Contour
     from shapespline.typing import ArrayLike, FloatArray, IntArray
 
 CornerChoice = Literal["auto", "free"]
@@ -28,6 +28,8 @@ FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1
 # fiftieth of the distance, where an arc makes seven and an inflection four. It is longer than some
 # tolerances.
 FINER, ONE_CHORD, LEAST_TOLERANCES = 0.02, 0.6, 10.0
+# Of bends sixteen times as much is left at twice the distance, of scatter as much.
+BEND_GROWTH = 4.0
 
 
 class SearchOutline(NamedTuple):
@@ -104,7 +106,7 @@ class SearchOutline(NamedTuple):
     def has_straight_runs(self) -> bool:
         """Whether some of the data are straight, or too noisy to tell."""
         contour, width = self.frame.contour, STRAIGHT_PART * self.tolerance
-        if noise_level(contour) > 0.5 * FINER * width:
+        if _is_noisy(contour, 0.5 * FINER * width):
             return True
         polyline = contour.polyline
         coarse, fine = _chords(polyline, width), _chords(polyline, FINER * width)
@@ -123,6 +125,19 @@ def _in_frame(held: Held, frame: WorkingFrame) -> Held:
         begin, end = (None if t is None else -t for t in (end, begin))
     through = np.unique(frame.place[held.through]) if len(held.through) else held.through
     return held._replace(through=through, tangents=(begin, end))
+
+
+def _is_noisy(contour: Contour, level: float) -> bool:
+    """Whether the points scatter by more than a level.
+
+    What a cubic leaves of few points on a smooth curve looks like scatter, but grows with the
+    fourth power of their distance, which scatter does not.
+    """
+    found = noise_level(contour)
+    if not found > level:
+        return False
+    half = Contour.trusted(contour.points[::2], contour.closed, contour.accuracy)
+    return noise_level(half) < BEND_GROWTH * found
 
 
 def _chords(polyline: FloatArray, distance: float) -> IntArray:

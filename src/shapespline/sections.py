@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.distance import Distances, two_sided_distance
 from shapespline.drawing import Piece
 from shapespline.errors import InvalidInputError
@@ -166,19 +167,20 @@ def fit_pieces(
         if watch.ended_as or results[-1].kept:
             break
     found = results[-1] if results else None
-    if found and found.kept and found.n_stored_points <= ROUGH_PART * len(contour):
+    enough = min(ROUGH_PART * len(contour), _n_chords(work))
+    if found and found.kept and found.n_stored_points <= enough:
         return found
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
     straight = work._replace(held=work.held._replace(tangents=(None, None)))
     lines = SectionSearch(straight, 1, False, False, Watch()).run(
         AIMS[0] * work.tolerance, SEARCHES["fast"][0]._replace(stride=1)
     )
-    others = (
-        verified_pieces(work.frame, p, contour, tolerance, degree, held)
-        for p in (lines, _through_all(whole.frame.contour))
-    )
+    results.append(verified_pieces(work.frame, lines, contour, tolerance, degree, held))
+    if not any(result.kept for result in results):
+        every = _through_all(whole.frame.contour)
+        results.append(verified_pieces(work.frame, every, contour, tolerance, degree, held))
     return min(
-        (*results, *others),
+        results,
         key=lambda found: (not found.kept, found.tangent_error > 0, found.n_stored_points),
     )
 
@@ -243,6 +245,12 @@ def _smallest_run(
 
 def _size(pieces: Sequence[Piece]) -> int:
     return sum(len(piece.control_points) - 1 for piece in pieces)
+
+
+def _n_chords(outline: SearchOutline) -> int:
+    """How many points a polyline through some of the data stores, a first guess."""
+    contour = outline.frame.contour
+    return len(_kernels.thinned(contour.polyline, outline.tolerance, np.inf, None)) - contour.closed
 
 
 def _through_all(contour: Contour) -> tuple[Piece, ...]:

@@ -25,7 +25,8 @@ template <int Degree>
 struct StateCurves {
     std::vector<SpanCurve<Degree>> curves;
     std::vector<double> gaps;
-    std::vector<char> sharp_start, sharp_end;  // the knot there has multiplicity >= degree
+    // Whether the curve goes on across a knot of multiplicity >= degree there.
+    std::vector<char> sharp_start, sharp_end;
 
     explicit StateCurves(const SplineState<Degree> &state)
         : StateCurves(state, state.first_span(), state.n_points()) {}
@@ -42,8 +43,10 @@ struct StateCurves {
             basis.evaluate(&around[Degree - 1]);
             curves.emplace_back().combine(basis, points.data());
             gaps.push_back(state.gap(k));
-            sharp_start.push_back(empty_gaps(state, k - 1, -1) >= Degree - 1);
-            sharp_end.push_back(empty_gaps(state, k + 1, 1) >= Degree - 1);
+            const bool begins = !state.closed && k == Degree;
+            const bool ends = !state.closed && k + 1 == state.n_points();
+            sharp_start.push_back(!begins && empty_gaps(state, k - 1, -1) >= Degree - 1);
+            sharp_end.push_back(!ends && empty_gaps(state, k + 1, 1) >= Degree - 1);
         }
     }
 
