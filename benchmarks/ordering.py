@@ -6,8 +6,8 @@ python -m benchmarks.ordering FOLDER     also a picture of every set
 
 from __future__ import annotations
 
+import argparse
 import itertools
-import sys
 import time
 from pathlib import Path
 
@@ -104,4 +104,6 @@ def _draw(points: np.ndarray, found: ss.Ordering, path: Path) -> None:
 
 
 if __name__ == "__main__":
-    table(Path(sys.argv[1]) if len(sys.argv) > 1 else None)
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("folder", type=Path, nargs="?", help="for a picture of each ordering")
+    table(parser.parse_args().folder)

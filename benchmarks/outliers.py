@@ -5,7 +5,7 @@ python -m benchmarks.outliers [FOLDER of outlines]
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -41,7 +41,9 @@ def contaminated(
 
 def main() -> None:
     """Print a line for each part and reach."""
-    shapes = outlines(Path(sys.argv[1]) if len(sys.argv) > 1 else OUTLINES)
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("folder", type=Path, nargs="?", default=OUTLINES, help="of outlines")
+    shapes = outlines(parser.parse_args().folder)
     clean = {name: len(find_outliers(contour)) for name, contour in shapes}
     accused = {name: count for name, count in clean.items() if count}
     n_points = sum(len(contour) for _, contour in shapes)

@@ -6,6 +6,7 @@
     python -m benchmarks.quality --no-peers   the promise alone
     python -m benchmarks.quality --jobs 2     two outlines at a time; the times then mean less
     python -m benchmarks.quality --figures F  also pictures of the worst ten fits, to be looked at
+    python -m benchmarks.quality --pin        write the sizes on the own corpus that CI holds
 
 Every curve is checked by the sampler of outside_metric.py, which shares nothing with the package.
 """
@@ -37,6 +38,7 @@ OWN = ROOT / "examples" / "data" / "outlines"
 LARGE = ROOT.parent / "shared" / "data"
 TOLERANCES = (0.5, 0.1, 0.02)  # per cent of the box diagonal
 LONGEST = 20_000
+PINNED = ROOT / "tests" / "pinned_points.csv"
 # What the certified bound may miss of the sampled distance: rounding alone.
 SLACK = 1 + 1e-9
 
@@ -178,6 +180,12 @@ def _at_every_tolerance(outline: Outline, *, peers: bool, **options: object) -> 
     return rows
 
 
+def pin(rows: list[Row]) -> None:
+    """Write the stored points of every fit, for the test that holds them."""
+    lines = [f"{row.name},{row.percent},{row.n_points}\n" for row in rows]
+    PINNED.write_text("outline,percent,points\n" + "".join(lines))
+
+
 def worst(rows: list[Row], count: int = 10) -> list[Row]:
     """Fits with the most points against the better peer, the worst first."""
     return sorted(rows, key=lambda row: -row.n_points / min(row.splprep, row.polyline))[:count]
@@ -191,10 +199,14 @@ def main() -> None:
     parser.add_argument("--no-peers", action="store_true", help="the promise alone")
     parser.add_argument("--jobs", type=int, default=1, help="outlines at a time")
     parser.add_argument("--figures", type=Path, help="a folder for pictures of the worst ten")
+    parser.add_argument("--pin", action="store_true", help="write the sizes that CI holds")
     parser.add_argument("--form", default="pieces")
     parser.add_argument("--corners", default="auto")
     parser.add_argument("--effort", default="balanced")
     chosen = parser.parse_args()
+    if chosen.pin:
+        pin(run(list(own_corpus()), peers=False, n_jobs=chosen.jobs))
+        return
     large = chosen.all or chosen.every
     outlines = list(large_corpus() if large else own_corpus())[:: chosen.every or 1]
     options = {"form": chosen.form, "corners": chosen.corners, "effort": chosen.effort}

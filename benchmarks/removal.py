@@ -7,7 +7,7 @@ open) instead.
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -92,8 +92,11 @@ def row(name: str, contour: ss.Contour, tolerance: float, effort: str, *, rule: 
 
 def main() -> None:
     """Print the table."""
-    if len(sys.argv) > 1:
-        contours = outlines(Path(sys.argv[1]), ())
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("folder", type=Path, nargs="?", help="of outlines, the project's if none")
+    folder = parser.parse_args().folder
+    if folder is not None:
+        contours = outlines(folder, ())
     else:
         contours = outlines(DATA / "outlines", PEERS) | {"wiggly10000_closed": wiggly(10_000)}
     print("## One cubic B-spline, both distances certified (box diagonal 100)\n")

@@ -162,7 +162,7 @@ class KnotRemoval {
     static constexpr int kRefitSamples = 24;
     static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
     static constexpr double kThinning = 0.025;  // of the tolerance
-    static constexpr int kSearchPoints = 220;  // at least; see docs/decisions.md
+    static constexpr int kSearchPoints = 150;  // at least; see docs/decisions.md
     static constexpr int kMedianAge = 256;  // control points for one removal that it may be old
     static constexpr double kTryStale = 0.97;
     static constexpr double kFlatness = 0.01;  // of the tolerance, for crossings
