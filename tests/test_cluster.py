@@ -15,6 +15,7 @@ from numpy.testing import assert_array_equal
 from tests.test_batch import outlines
 
 import shapespline as ss
+from shapespline.point_stream import CHUNK
 
 distributed = pytest.importorskip("dask.distributed", reason="needs shapespline[cluster]")
 
@@ -55,6 +56,33 @@ def test_a_killed_worker_loses_nothing(cluster):
     assert sorted(together.failures) == sorted(alone.failures) == [1200]
     for mine, theirs in zip(alone.fits[:1200], together.fits[:1200], strict=True):
         assert_array_equal(mine.control_points, theirs.control_points)
+
+
+def test_one_outline_whose_blocks_lie_on_the_cluster(cluster):
+    dask_array = pytest.importorskip("dask.array")
+    t = 2 * np.pi * dask_array.arange(3_000_000, chunks=CHUNK) / 3_000_000
+    r = 3 + dask_array.cos(5 * t)
+    blocks = dask_array.stack([r * dask_array.cos(t), r * dask_array.sin(t)], axis=1)
+    alone = ss.fit_large(blocks.compute(), tolerance=0.005)
+    killed = threading.Event()
+
+    def kill_one(done, total):
+        if not killed.is_set():
+            killed.set()
+            (victim, *_) = client.run(os.getpid).values()
+            os.kill(victim, signal.SIGKILL)
+
+    with distributed.Client(cluster) as client:
+        before = set(client.run(os.getpid).values())
+        together = ss.fit_large(blocks, tolerance=0.005, progress=kill_one)
+        client.wait_for_workers(2, timeout=60)
+        after = set(client.run(os.getpid).values())
+    assert killed.is_set()
+    assert before != after
+    assert together.kept
+    assert_array_equal(together.control_points, alone.control_points)
+    assert together.max_distance == alone.max_distance
+    assert together.rms_distance == alone.rms_distance
 
 
 def test_the_command_line_uses_a_scheduler(cluster, tmp_path):

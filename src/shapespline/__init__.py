@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from shapespline.fitting import fit_curve
     from shapespline.formats import read, write
     from shapespline.initial import InitialCurve, initial_curve
+    from shapespline.large import fit_large
+    from shapespline.large_fit import FootParameters, LargeFit
     from shapespline.optimization import optimize
     from shapespline.ordering import Ordering, order_points
     from shapespline.reading import LITERAL, SENSIBLE, Reading
@@ -46,6 +48,8 @@ _HOME = {
     "Drawing": "drawing",
     "DroppedPointsWarning": "errors",
     "Fit": "drawing",
+    "FootParameters": "large_fit",
+    "LargeFit": "large_fit",
     "FormatError": "errors",
     "Frame": "contour",
     "InitialCurve": "initial",
@@ -65,6 +69,7 @@ _HOME = {
     "UnknownFormatError": "errors",
     "compare": "comparison",
     "fit_curve": "fitting",
+    "fit_large": "large",
     "fit_many": "batch",
     "fit_shape": "reconstruction",
     "initial_curve": "initial",
@@ -85,10 +90,12 @@ __all__ = [
     "Drawing",
     "DroppedPointsWarning",
     "Fit",
+    "FootParameters",
     "FormatError",
     "Frame",
     "InitialCurve",
     "InvalidInputError",
+    "LargeFit",
     "MissingExtraError",
     "OrderError",
     "Ordering",
@@ -103,6 +110,7 @@ __all__ = [
     "__version__",
     "compare",
     "fit_curve",
+    "fit_large",
     "fit_many",
     "fit_shape",
     "initial_curve",

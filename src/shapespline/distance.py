@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.footpoint import nearest
+from shapespline.footpoint import Nearest, nearest
 
 if TYPE_CHECKING:
     from shapespline.contour import Contour
@@ -62,12 +62,9 @@ def two_sided_distance(curve: BSplineCurve, contour: Contour) -> Distances:
     >>> found.max_distance < 1e-14, round(found.reverse_distance, 3)
     (True, 1.0)
     """
-    middle = _middle(contour)
-    rounding = _rounding(curve, contour)
-    # Differences are formed about the middle of the data, so that its place costs no accuracy.
-    found = nearest(_moved(curve, -middle), contour.points - middle)
+    found = CentredCurve.of(curve, contour).nearest(contour.points)
     return Distances(
-        float(np.sqrt(found.distances_sq.max())) + rounding,
+        float(np.sqrt(found.distances_sq.max())) + rounding(curve, contour),
         float(np.sqrt(found.distances_sq.mean())),
         reverse_distance(curve, contour),
         found.parameters,
@@ -79,7 +76,7 @@ def distances_at(curve: BSplineCurve, contour: Contour, parameters: FloatArray) 
     offset = curve(parameters) - contour.points
     distances = np.hypot(offset[:, 0], offset[:, 1])
     return Distances(
-        float(distances.max()) + _rounding(curve, contour),
+        float(distances.max()) + rounding(curve, contour),
         float(np.sqrt((distances**2).mean())),
         reverse_distance(curve, contour),
         parameters,
@@ -88,8 +85,7 @@ def distances_at(curve: BSplineCurve, contour: Contour, parameters: FloatArray) 
 
 def reverse_distance(curve: BSplineCurve, contour: Contour) -> float:
     """Certified bound of the distance from the curve to the data polyline."""
-    middle = _middle(contour)
-    centred = _moved(curve, -middle)
+    centred, middle = CentredCurve.of(curve, contour)
     _, reverse, _ = _kernels.curve_deviation(
         centred.knots,
         centred.degree,
@@ -98,18 +94,28 @@ def reverse_distance(curve: BSplineCurve, contour: Contour) -> float:
         RELATIVE_GAP,
         FLOOR * contour.box_diagonal,
     )
-    return float(reverse) + _rounding(curve, contour)
+    return float(reverse) + rounding(curve, contour)
 
 
-def _middle(contour: Contour) -> FloatArray:
-    return np.array([0.5 * (x.min() + x.max()) for x in contour.points.T])
+class CentredCurve(NamedTuple):
+    """A curve about the middle of its data: differences formed there do not pay for its place."""
+
+    moved: BSplineCurve
+    middle: FloatArray
+
+    @classmethod
+    def of(cls, curve: BSplineCurve, contour: Contour) -> CentredCurve:
+        """The curve about the middle of a contour's box."""
+        middle = np.array([0.5 * (x.min() + x.max()) for x in contour.points.T])
+        points = curve.control_points - middle
+        return cls(type(curve)(curve.knots, points, curve.degree, curve.periodic), middle)
+
+    def nearest(self, points: FloatArray) -> Nearest:
+        """Nearest points of the curve, as `nearest` finds them."""
+        return nearest(self.moved, points - self.middle)
 
 
-def _moved(curve: BSplineCurve, by: FloatArray) -> BSplineCurve:
-    return type(curve)(curve.knots, curve.control_points + by, curve.degree, curve.periodic)
-
-
-def _rounding(curve: BSplineCurve, contour: Contour) -> float:
+def rounding(curve: BSplineCurve, contour: Contour) -> float:
     """A few units in the last place of the largest coordinate."""
     largest = max(np.abs([a.min(), a.max()]).max() for a in (contour.points, curve.control_points))
     return 8.0 * float(np.finfo(float).eps * largest)

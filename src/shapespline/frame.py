@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.averaging import averaged
 from shapespline.contour import Contour
 from shapespline.curve import BSplineCurve
 from shapespline.joining import backwards
@@ -23,6 +24,10 @@ THINNING = 0.01
 LONGEST_CHORD = 0.005
 FEWEST_POINTS = 500
 WORTH_THINNING = 0.7
+# So many points that do not thin scatter, or tell of more than anybody can see: averages stand for
+# them, if these take no more than this part of the tolerance.
+MANY_POINTS = 20_000
+MOST_SCATTER = 0.9
 
 
 class WorkingFrame(NamedTuple):
@@ -32,7 +37,7 @@ class WorkingFrame(NamedTuple):
     power of two, exact), and an order that does not depend on where the data begin and which way
     they run. ``order`` (n,) are the indices of its points in the data. ``reversed`` tells that the
     data run the other way; what is restored runs the way they do. A frame that was `thinned` holds
-    some of the points only, and ``slack`` is how far its polyline lies from that of all.
+    some of the points, or averages, and ``slack`` is how far its polyline lies from that of all.
 
     Examples
     --------
@@ -75,8 +80,9 @@ class WorkingFrame(NamedTuple):
     def thinned(self, tolerance: float, marked: IntArray) -> WorkingFrame:
         """The frame without the points that a search within a tolerance does not need.
 
-        Their distance from what is left is a small part of the tolerance, both ways. The frame is
-        the same if few would go. ``marked`` are indices into ``contour`` of points that stay.
+        Their distance from what is left is a small part of the tolerance, both ways, or the part
+        that many points scatter by; then averages stand for them. The frame is the same if few
+        would go. ``marked`` are indices into ``contour`` of points that stay.
         """
         work, slack = self.contour, THINNING * tolerance
         if len(work) <= FEWEST_POINTS:
@@ -89,6 +95,14 @@ class WorkingFrame(NamedTuple):
         )
         if work.closed:
             kept = kept[:-1]
+        if len(kept) > MANY_POINTS:
+            found = averaged(work.points, work.closed, marked)
+            if found.off <= MOST_SCATTER * tolerance:
+                return self._replace(
+                    contour=Contour.trusted(found.nodes, work.closed, work.accuracy),
+                    order=self.order[found.indices],
+                    slack=found.off,
+                )
         if len(kept) > WORTH_THINNING * len(work):
             return self
         return self._replace(
@@ -96,6 +110,12 @@ class WorkingFrame(NamedTuple):
             order=self.order[kept],
             slack=slack,
         )
+
+    def taken_over(self, contour: Contour) -> Contour:
+        """Another contour in the unit of this frame, in its own order."""
+        moved = (contour.points - self.middle) * self.scale
+        accuracy = None if contour.accuracy is None else contour.accuracy * self.scale
+        return Contour.trusted(moved, contour.closed, accuracy)
 
     @property
     def place(self) -> IntArray:

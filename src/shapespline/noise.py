@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
 # Points on each side of the middle of a local fit.
 HALF_WINDOW = 3
-# So many windows tell the median to 1 %; of more, every so many-th is looked at.
-MOST_WINDOWS = 20_000
+# So many windows tell the median to 2 %; of more, every so many-th is looked at.
+MOST_WINDOWS = 5_000
 # Of fewer points nobody can tell noise from bends.
 FEWEST_POINTS = 64
 # Median of a chi-squared variable with the 3 degrees of freedom that a cubic leaves of 7 points.

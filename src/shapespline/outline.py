@@ -37,7 +37,8 @@ class SearchOutline(NamedTuple):
 
     ``frame`` holds the points in its order and unit, ``tolerance`` is in that unit too. ``corners``
     are indices of its points, ``gentle`` (n,) is 1 where the outline hardly turns, ``held`` is in
-    its order and direction.
+    its order and direction. ``dense`` are points as they came, in that unit, where the frame holds
+    thinned ones.
     """
 
     frame: WorkingFrame
@@ -45,6 +46,7 @@ class SearchOutline(NamedTuple):
     corners: IntArray
     gentle: IntArray
     held: Held = Held()
+    dense: Contour | None = None
 
     @classmethod
     def of(
@@ -94,22 +96,24 @@ class SearchOutline(NamedTuple):
         if frame is self.frame:
             return self
         place = self.frame.place[frame.order]
-        return SearchOutline(
-            frame,
-            self.tolerance - frame.slack,
-            np.flatnonzero(np.isin(place, self.corners)),
-            self.gentle[place],
-            self.held._replace(through=np.flatnonzero(np.isin(place, self.held.through))),
+        return self._replace(
+            frame=frame,
+            tolerance=self.tolerance - frame.slack,
+            corners=np.flatnonzero(np.isin(place, self.corners)),
+            gentle=self.gentle[place],
+            held=self.held._replace(through=np.flatnonzero(np.isin(place, self.held.through))),
         )
 
     @property
     def has_straight_runs(self) -> bool:
         """Whether some of the data are straight, or too noisy to tell."""
-        contour, width = self.frame.contour, STRAIGHT_PART * self.tolerance
+        contour = self.frame.contour if self.dense is None else self.dense
+        width = STRAIGHT_PART * self.tolerance
         if _is_noisy(contour, 0.5 * FINER * width):
             return True
         polyline = contour.polyline
-        coarse, fine = _chords(polyline, width), _chords(polyline, FINER * width)
+        fine = _chords(polyline, FINER * width)
+        coarse = fine[_chords(polyline[fine], width)]
         lengths = _lengths(polyline, coarse)
         longest = np.zeros(len(lengths))
         inside = np.searchsorted(coarse, 0.5 * (fine[1:] + fine[:-1]), side="right") - 1

@@ -67,8 +67,14 @@ def fit_within(
     symmetric: bool,
     effort: Effort,
     watch: Watch,
+    outline: SearchOutline | None = None,
+    dense: Contour | None = None,
 ) -> Fit:
-    """The smallest curve within a tolerance, of the form that was asked for."""
+    """The smallest curve within a tolerance, of the form that was asked for.
+
+    ``outline`` is the search's view of the contour where it is known, and ``dense`` holds points
+    as they came where the contour holds thinned ones.
+    """
     corners = checked_corners(corners, len(contour))
     if form == "spline":
         if not (corners is None or isinstance(corners, str)):
@@ -83,7 +89,8 @@ def fit_within(
         raise InvalidInputError(
             "end_tangents do not act with corners='free': joints are free there"
         )
-    outline = SearchOutline.of(contour, tolerance, corners, held)
+    if outline is None:
+        outline = SearchOutline.of(contour, tolerance, corners, held)
     smooth = None
     if not (len(outline.corners) or held.anything or symmetric or outline.has_straight_runs):
         smooth = _single(contour, tolerance, degree, effort, watch, outline.frame)
@@ -131,7 +138,8 @@ def fit_within(
         return fit
     if watch.ended_as or held.anything or (len(outline.corners) and not free):
         return fit
-    if not free and any(_drawn_straight(piece, contour, tolerance) for piece in found.pieces):
+    drawn = contour if dense is None else dense
+    if not free and any(_drawn_straight(piece, drawn, tolerance) for piece in found.pieces):
         return fit
     smooth = smooth or _single(contour, tolerance, degree, effort, watch, outline.frame)
     # Of equals the single spline: it has no joints. Nor has it corners where the data have none.

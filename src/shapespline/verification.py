@@ -60,15 +60,24 @@ def verified_fit(
         rms_distance=found.rms_distance,
         hausdorff_distance=bound,
         tolerance=bound if tolerance is None else float(tolerance),
-        status=_status(found, tolerance, run),
+        status=status_of(found, tolerance, run),
         history=history,
         method=method,
         sections=sections,
     )
 
 
-def _status(found: Distances, tolerance: float | None, run: Result | None) -> Status:
-    """What was reached, as a sentence with figures."""
+def status_of(found: Distances, tolerance: float | None, run: Result | None = None) -> Status:
+    """What was reached, as a sentence with figures.
+
+    Parameters
+    ----------
+    found : Distances
+    tolerance : float or None
+        The one asked for.
+    run : Result, optional
+        How the iterations ended, where the curve is theirs.
+    """
     figures = f"data to curve {found.max_distance:.6g}, curve to data {found.reverse_distance:.6g}"
     steps = stop = None
     if run is not None:

@@ -20,6 +20,7 @@ class CurveSearch {
     struct Nearest {
         double distance_sq;
         double parameter;
+        double place;  // of the foot on the piece, 0 to 1
         std::size_t piece;
         bool inside;  // the foot is no end of the piece
     };
@@ -33,7 +34,8 @@ class CurveSearch {
     //
     // Every piece whose convex hull's box comes nearer than the best so far is searched: global up
     // to the convergence of Newton's method on a gentle piece. Neighbours mostly have their feet
-    // inside the same piece, and one look into the tree serves them all.
+    // inside the same piece, as far apart as those before them: Newton's method begins there, and
+    // one look into the tree serves them all.
     template <class Found>
     void nearest(std::span<const Vec2> queries, Found &&found) const {
         Run run;
@@ -52,9 +54,12 @@ class CurveSearch {
             }
             run.n = 0;
         };
+        double ahead = kUnknown, before = kUnknown;
         for (std::size_t j = 0; j < queries.size(); ++j) {
-            Nearest best = nearest_on_piece(queries[j], run.piece);
+            Nearest best = nearest_on_piece(queries[j], run.piece, ahead);
             if (best.inside) {
+                ahead = before == kUnknown ? best.place : 2.0 * best.place - before;
+                before = best.place;
                 if (run.n == 0) run.start(j);
                 run.add(queries[j], best);
                 if (run.n == kLongestRun) finish();
@@ -65,6 +70,7 @@ class CurveSearch {
                          [&](std::size_t i) { improve(queries[j], i, best); });
             found(j, best);
             run.piece = best.piece;
+            ahead = before = best.place;
         }
         finish();
     }
@@ -93,13 +99,15 @@ class CurveSearch {
 
     void improve(Vec2 q, std::size_t piece, Nearest &best) const {
         if (piece == best.piece || boxes_[piece].distance_sq(q) >= best.distance_sq) return;
-        const Nearest other = nearest_on_piece(q, piece);
+        const Nearest other = nearest_on_piece(q, piece, kUnknown);
         if (other.distance_sq < best.distance_sq) best = other;
     }
 
     static constexpr int kMaxDepth = 8, kMinDepth = 2, kNewtonSteps = 32;
-    // Newton's method squares its error: what follows a step so small is rounding.
-    static constexpr double kLastStep = 1e-8;
+    // Newton's method squares its error: what is left after a step so small is nothing to the
+    // distance, which it changes by its square again.
+    static constexpr double kLastStep = 1e-6;
+    static constexpr double kUnknown = -2.0;
 
     // Pieces whose control polygon is at most 2 % longer than its chord: on them the squared
     // distance to a point has one minimum, unless the point is near the centre of curvature, where
@@ -133,13 +141,17 @@ class CurveSearch {
         return boxes;
     }
 
-    Nearest nearest_on_piece(Vec2 q, std::size_t index) const {
+    // From a place where the foot may be, or the foot on the chord.
+    Nearest nearest_on_piece(Vec2 q, std::size_t index, double guess) const {
         const Bezier<Degree> &piece = pieces_[index];
-        const Vec2 chord = piece.points[Degree] - piece.points[0];
-        const double chord_sq = norm_sq(chord);
-        double s = chord_sq > 0.0
-                       ? std::clamp(dot(q - piece.points[0], chord) / chord_sq, 0.0, 1.0)
-                       : 0.5;
+        double s = std::clamp(guess, 0.0, 1.0);
+        if (guess == kUnknown) {
+            const Vec2 chord = piece.points[Degree] - piece.points[0];
+            const double chord_sq = norm_sq(chord);
+            s = chord_sq > 0.0
+                    ? std::clamp(dot(q - piece.points[0], chord) / chord_sq, 0.0, 1.0)
+                    : 0.5;
+        }
         double best_s = 0.0, best_sq = norm_sq(piece.points[0] - q);
         const auto consider = [&](double at, double distance_sq) {
             if (distance_sq < best_sq) best_s = at, best_sq = distance_sq;
@@ -160,7 +172,7 @@ class CurveSearch {
             last = curvature == newton && std::abs(next - s) <= kLastStep;
             s = next;
         }
-        return {best_sq, piece.begin + best_s * (piece.end - piece.begin), index,
+        return {best_sq, piece.begin + best_s * (piece.end - piece.begin), best_s, index,
                 best_s > 0.0 && best_s < 1.0};
     }
 

@@ -11,12 +11,20 @@ import typer
 
 import shapespline as ss
 from shapespline.cli import options
+from shapespline.cli.jobs import point_progress
 from shapespline.cli.places import never_the_input
 from shapespline.cli.reports import Report, drawing_record, drawing_remarks, drawing_text
 from shapespline.cli.run_files import Batch, run_files
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    import numpy as np
+
+# Bytes of an array file from which on it is passed over, not read at once, where nothing is asked
+# that needs all points.
+LARGE_FILE = 32_000_000
+IN_PASSES = {"tolerance", "degree", "corners", "form", "effort", "ends", "time_limit"}
 
 
 @dataclass(frozen=True)
@@ -31,9 +39,14 @@ class FitFile:
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
-        shape = self.reading.outlines(source, self.fitting["tolerance"])
-        began = time.perf_counter()
-        drawing = ss.fit_shape(shape, **self.fitting)
+        large = self.mapped(source)
+        if large is None:
+            shape = self.reading.outlines(source, self.fitting["tolerance"])
+            began = time.perf_counter()
+            drawing = ss.fit_shape(shape, **self.fitting)
+        else:
+            began = time.perf_counter()
+            drawing = self.fitted_in_passes(large)
         seconds = time.perf_counter() - began
         ss.write(target, drawing, **self.writing.given())
         picture = self.picture(source)
@@ -47,6 +60,32 @@ class FitFile:
             record={"output": str(target), "seconds": seconds, **drawing_record(drawing)},
             remarks=drawing_remarks(drawing),
         )
+
+    def mapped(self, source: Path) -> np.memmap | None:
+        """The points of a file that is too large to be read at once, if there is no other need."""
+        asked = {name for name, value in self.fitting.items() if value not in (None, False)}
+        if self.plot is not None or self.fitting["ends"] != "free":
+            return None
+        if not {"tolerance"} <= asked <= IN_PASSES:
+            return None
+        if source.suffix.lower() != ".npy" or source.stat().st_size < LARGE_FILE:
+            return None
+        if set(self.reading.given()) - {"closed"}:
+            return None
+        import numpy as np
+
+        try:
+            points = np.load(source, mmap_mode="r", allow_pickle=False)
+        except (ValueError, OSError):  # the reader says what is wrong with it
+            return None
+        return points if isinstance(points, np.memmap) else None
+
+    def fitted_in_passes(self, points: np.memmap) -> ss.Drawing:
+        """The fit of one outline of any number of points."""
+        options = {name: self.fitting[name] for name in IN_PASSES if name != "ends"}
+        with point_progress() as progress:
+            fit = ss.fit_large(points, closed=self.reading.closed, progress=progress, **options)
+        return ss.Drawing([fit])
 
     def picture(self, source: Path) -> Path | None:
         """Where the picture of one input goes."""

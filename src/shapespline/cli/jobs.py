@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import multiprocessing
 import signal
 import sys
 import warnings
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from concurrent.futures import Executor, Future
     from pathlib import Path
+
+    from rich.progress import Progress, ProgressColumn
 
     Work = Callable[[Path, Path], Report]
 
@@ -99,10 +102,29 @@ def _progress(total: int) -> Iterator[Callable[[], object]]:
     if total == 1 or not sys.stderr.isatty():
         yield lambda: None
         return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+    from rich.progress import MofNCompleteColumn
 
-    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with _bar(MofNCompleteColumn()) as bar:
         task = bar.add_task("", total=total)
         yield lambda: bar.advance(task)
+
+
+@contextlib.contextmanager
+def point_progress() -> Iterator[Callable[[int, int], object] | None]:
+    """A bar of the points passed of one long outline; not beside other workers."""
+    if not sys.stderr.isatty() or multiprocessing.parent_process() is not None:
+        yield None
+        return
+    from rich.progress import TaskProgressColumn
+
+    with _bar(TaskProgressColumn()) as bar:
+        task = bar.add_task("")
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+def _bar(how_far: ProgressColumn) -> Progress:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TimeRemainingColumn
+
+    columns = (BarColumn(), how_far, TimeRemainingColumn())
+    return Progress(*columns, console=Console(stderr=True), transient=True)

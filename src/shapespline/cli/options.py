@@ -109,9 +109,13 @@ class Reading:
         float | None, typer.Option(help="Pixels per inch, of pictures (unit: mm if none is named).")
     ] = None
 
+    def given(self) -> dict[str, Any]:
+        """Those that were given, as options of `shapespline.read`."""
+        return _given(self)
+
     def read(self, path: Path, sampling: float | None = None) -> Shape | Drawing:
         """What the file holds."""
-        return ss.read(path, sampling=sampling, **_given(self))
+        return ss.read(path, sampling=sampling, **self.given())
 
     def outlines(self, path: Path, tolerance: str | None = None) -> Shape:
         """The outlines in the file; of a drawing those that it was fitted to.

@@ -1,0 +1,198 @@
+"""fit_large: one outline of any number of points, in three passes over them.
+
+The first pass looks: bounds, ends, a sample for corners and noise. The second finds a polyline of
+few vertices that stands for all points, a small, proven distance away (stand_in.py). The search
+sees these vertices only, and keeps the tolerance less that distance, so that the promise holds for
+all points; the third pass measures every one of them against the curve. What a pass brings home
+from a chunk is a few numbers or vertices, so chunks may lie on disk or on the machines of a
+cluster.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from shapespline.arrays import is_number
+from shapespline.contour import Contour
+from shapespline.corners import find_corners
+from shapespline.distance import CentredCurve, Distances, reverse_distance, rounding
+from shapespline.drawing import Fit
+from shapespline.errors import InvalidInputError
+from shapespline.frame import LONGEST_CHORD, WorkingFrame
+from shapespline.held import Held
+from shapespline.knots import check_degree
+from shapespline.large_fit import FootParameters, LargeFit
+from shapespline.outline import GENTLE_TURN, SearchOutline
+from shapespline.passes import Passes
+from shapespline.point_stream import PointStream
+from shapespline.progress import Watch
+from shapespline.stand_in import StandIn
+from shapespline.tolerance import fit_within, tolerance_length
+from shapespline.verification import status_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from concurrent.futures import Executor
+
+    from shapespline.tolerance import Effort, Form
+    from shapespline.typing import IntArray
+
+
+def fit_large(
+    points: Any,
+    *,
+    tolerance: float | str,
+    closed: bool | None = None,
+    degree: int = 3,
+    corners: Literal["auto", "free"] | None = "auto",
+    form: Form = "pieces",
+    effort: Effort = "balanced",
+    executor: Executor | None = None,
+    progress: Callable[[int, int], object] | None = None,
+    time_limit: float | None = None,
+) -> LargeFit:
+    """Fit a curve to one outline of any number of points, without holding them in memory.
+
+    Parameters
+    ----------
+    points : array-like, shape (n, 2)
+        In order along the outline: an array, a file mapped by ``numpy.load(path,
+        mmap_mode="r")``, a zarr or a dask array.
+    tolerance : float or str
+        As `fit_curve` takes it; kept for every point, both ways.
+    closed : bool, optional
+        Whether the last point joins the first; when not given, whether the gap between them is no
+        longer than the longest step.
+    degree, corners, form, effort, time_limit
+        As `fit_curve` takes them; corners cannot be named by their indices.
+    executor : concurrent.futures.Executor, optional
+        Where to work on chunks, several at a time: threads for an array or a file. The blocks of a
+        dask array are worked on by dask's own scheduler, a cluster's if there is a client. The
+        result has the same bits.
+    progress : callable, optional
+        Called with the number of points looked at and to look at, over all passes; a true answer
+        ends the run with a ShapesplineError.
+
+    Returns
+    -------
+    LargeFit
+
+    Raises
+    ------
+    InvalidInputError, DegenerateContourError
+        If the points or an argument is not usable, or the points scatter by so much more than the
+        tolerance that too many of them have to stay.
+
+    Notes
+    -----
+    Clean points are thinned by cone intersection in one pass over each chunk (Williams 1978), 1 to
+    30 % of the tolerance away; points that scatter are averaged over runs. The bound from curve to
+    data is that to the vertices' polyline and its distance. Points that begin elsewhere or run the
+    other way may give another curve, as good a one.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 2 * np.pi, 600_000, endpoint=False)
+    >>> ellipse = np.column_stack([3 * np.cos(t), np.sin(t)]).astype(np.float32)
+    >>> fit = fit_large(ellipse, tolerance=0.01)
+    >>> fit.kept, fit.closed, fit.n_stored_points <= 8, fit.n_points
+    (True, True, True, 600000)
+    """
+    degree = check_degree(degree)
+    if not (corners is None or corners in ("auto", "free")):
+        raise InvalidInputError(f"corners must be 'auto', 'free' or None, got {corners!r}")
+    for name, value, choices in (
+        ("form", form, ("pieces", "spline")),
+        ("effort", effort, ("fast", "balanced", "smallest")),
+    ):
+        if value not in choices:
+            raise InvalidInputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
+    if not isinstance(tolerance, str) and not (is_number(tolerance) and 0 < tolerance < np.inf):
+        raise InvalidInputError(f"tolerance must be a positive length, got {tolerance!r}")
+    watch = Watch(None, time_limit)
+    stream = PointStream(points, executor)
+    passes = Passes(stream, progress, in_all=3)
+
+    seen = passes.look()
+    closed = seen.ends_meet if closed is None else bool(closed)
+    sample = Contour.silently(seen.sample, closed)
+    box = Contour.silently(np.array([seen.low, seen.high]), closed=False)
+    length = tolerance_length(tolerance, box)
+
+    standing = StandIn.of(passes, seen, closed, length, LONGEST_CHORD * box.box_diagonal)
+    thinned = Contour.silently(standing.points, closed)
+    # Repeated points are gone.
+    indices = standing.indices[np.unique(thinned.source, return_index=True)[1]]
+    aim = length - standing.off
+    outline = _outline(thinned, indices, sample, aim, corners, stream.n_points)
+    fit = fit_within(
+        thinned,
+        aim,
+        degree,
+        corners,
+        form,
+        Held(),
+        False,
+        effort,
+        watch,
+        outline,
+        sample,
+    )
+
+    curve = CentredCurve.of(fit.spline, thinned)
+    measured = passes.measure(curve)
+    found = Distances(
+        float(np.sqrt(measured.largest)) + rounding(fit.spline, thinned),
+        float(np.sqrt(measured.total / stream.n_points)),
+        reverse_distance(fit.spline, thinned) + standing.off,
+        fit.parameters,
+    )
+    named = {name: getattr(fit, name) for name in Fit.__dataclass_fields__}
+    named |= {
+        "max_distance": found.max_distance,
+        "rms_distance": found.rms_distance,
+        "hausdorff_distance": found.hausdorff_distance,
+        "tolerance": length,
+        "status": watch.verdict(status_of(found, length)),
+    }
+    return LargeFit(**named, n_points=stream.n_points, feet=FootParameters(stream, curve))
+
+
+def _outline(
+    thinned: Contour,
+    indices: IntArray,
+    sample: Contour,
+    aim: float,
+    corners: Literal["auto", "free"] | None,
+    n_points: int,
+) -> SearchOutline:
+    """What the search knows: corners found in the sample are vertices near by."""
+    frame = WorkingFrame.of(thinned)
+    seen = frame.taken_over(sample)
+    n = len(thinned)
+    empty = np.empty(0, dtype=np.int64)
+    if corners is None:
+        gentle = np.ones(n, dtype=np.int64)
+        return SearchOutline(frame, aim * frame.scale, empty, gentle, dense=seen)
+    found = find_corners(sample, aim)
+    stride = n_points / len(sample)
+    beside = np.minimum((indices / stride).astype(np.int64), len(sample) - 1)
+    gentle = (found.turns[beside] < GENTLE_TURN).astype(np.int64)
+    chosen = [_farthest(thinned, indices, stride * at, 2.0 * stride) for at in found.indices]
+    places = np.unique(frame.place[np.array(chosen, dtype=np.int64)]) if chosen else empty
+    return SearchOutline(frame, aim * frame.scale, places, gentle[frame.order], dense=seen)
+
+
+def _farthest(thinned: Contour, indices: IntArray, middle: float, reach: float) -> int:
+    """Of the vertices near a place the one farthest from the chord across them."""
+    near = np.flatnonzero(np.abs(indices - middle) <= reach)
+    if len(near) == 0:
+        return int(np.abs(indices - middle).argmin())
+    n = len(thinned)
+    ends = np.array([near[0] - 1, near[-1] + 1])
+    ends = ends % n if thinned.closed else np.clip(ends, 0, n - 1)
+    begin, end = thinned.points[ends]
+    (x, y), (dx, dy) = (thinned.points[near] - begin).T, end - begin
+    return int(near[np.abs(x * dy - y * dx).argmax()])

@@ -1,0 +1,124 @@
+"""Passes over all chunks of a stream of points, with their progress."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from shapespline.errors import DegenerateContourError, InvalidInputError, ShapesplineError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from shapespline.distance import CentredCurve
+    from shapespline.point_stream import PointStream
+    from shapespline.typing import FloatArray
+
+# Points that corners and noise are judged by.
+SAMPLE = 20_000
+
+
+class Seen(NamedTuple):
+    """What a look at points tells.
+
+    ``low`` and ``high`` are the corners of their box, ``firsts`` (k, 2) the first point of each
+    chunk, ``sample`` every so many-th point.
+    """
+
+    low: FloatArray
+    high: FloatArray
+    firsts: FloatArray
+    last: FloatArray
+    longest_step: float
+    sample: FloatArray
+
+    @property
+    def ends_meet(self) -> bool:
+        """Whether the gap between the ends is no longer than the longest step."""
+        return float(np.hypot(*(self.firsts[0] - self.last))) <= self.longest_step
+
+
+class Measured(NamedTuple):
+    """The largest squared distance from points to a curve, and the sum of all."""
+
+    largest: float
+    total: float
+
+
+class Passes:
+    """Passes over all chunks.
+
+    Parameters
+    ----------
+    stream : PointStream
+    progress : callable or None
+        Called with the points passed and to pass, over ``in_all`` passes; a true answer ends them.
+
+    Examples
+    --------
+    >>> from shapespline.point_stream import PointStream
+    >>> stream = PointStream(np.array([(0.0, 1.0), (2.0, 3.0)]))
+    >>> Passes(stream, None, in_all=1).look().high.tolist()
+    [2.0, 3.0]
+    """
+
+    def __init__(
+        self, stream: PointStream, progress: Callable[[int, int], object] | None, in_all: int
+    ) -> None:
+        self.stream = stream
+        self._progress, self._done, self._total = progress, 0, in_all * stream.n_points
+
+    def look(self) -> Seen:
+        """What all points tell, checked to be finite."""
+        if self.stream.n_points == 0:
+            raise DegenerateContourError("points must hold at least 2 distinct points, got none")
+        stride = -(-self.stream.n_points // SAMPLE)
+        found = self.over_all(_look, [(begin, stride) for begin in self.stream.begins[:-1]])
+        return Seen(
+            np.min([part.low for part in found], axis=0),
+            np.max([part.high for part in found], axis=0),
+            np.concatenate([part.firsts for part in found]),
+            found[-1].last,
+            max(part.longest_step for part in found),
+            np.concatenate([part.sample for part in found]),
+        )
+
+    def measure(self, curve: CentredCurve) -> Measured:
+        """Squared distances from all points to a curve."""
+        found = self.over_all(_measure, [(curve,)] * len(self.stream))
+        return Measured(max(m.largest for m in found), float(np.sum([m.total for m in found])))
+
+    def over_all(self, function: Any, arguments: Sequence[tuple[Any, ...]]) -> list[Any]:
+        """Results of a function of every chunk; each is told to the caller."""
+        results = []
+        sizes = np.diff(self.stream.begins).tolist()
+        for size, result in zip(sizes, self.stream.map(function, arguments), strict=True):
+            results.append(result)
+            self._done += size
+            if self._progress is not None and self._progress(self._done, self._total):
+                raise ShapesplineError(
+                    f"cancelled by the callback after {self._done} of {self._total} points"
+                )
+        return results
+
+
+def _look(points: FloatArray, begin: int, stride: int) -> Seen:
+    low, high = points.min(axis=0), points.max(axis=0)
+    if not (np.isfinite(low).all() and np.isfinite(high).all()):
+        bad = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
+        raise InvalidInputError(
+            f"points must be finite, got {points[bad].tolist()} at index {begin + bad};"
+            " remove or repair such rows"
+        )
+    longest = 0.0
+    if len(points) > 1:
+        longest = float(np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1).max()))
+    # Copies: a view would keep the whole chunk in memory.
+    first, last = points[:1].copy(), points[-1].copy()
+    return Seen(low, high, first, last, longest, points[-begin % stride :: stride].copy())
+
+
+def _measure(points: FloatArray, curve: CentredCurve) -> Measured:
+    distances_sq = curve.nearest(points).distances_sq
+    return Measured(float(distances_sq.max()), float(distances_sq.sum()))
