@@ -28,6 +28,8 @@ FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1
 # fiftieth of the distance, where an arc makes seven and an inflection four. It is longer than some
 # tolerances.
 FINER, ONE_CHORD, LEAST_TOLERANCES = 0.02, 0.6, 10.0
+# An edge so many times as long as the median was drawn as a line, not sampled.
+LONG_EDGE = 8.0
 # Of bends sixteen times as much is left at twice the distance, of scatter as much.
 BEND_GROWTH = 4.0
 
@@ -107,7 +109,7 @@ class SearchOutline(NamedTuple):
     @property
     def has_straight_runs(self) -> bool:
         """Whether some of the data are straight, or too noisy to tell."""
-        contour = self.frame.contour if self.dense is None else self.dense
+        contour = filled(self.frame.contour if self.dense is None else self.dense)
         width = STRAIGHT_PART * self.tolerance
         if _is_noisy(contour, 0.5 * FINER * width):
             return True
@@ -120,6 +122,29 @@ class SearchOutline(NamedTuple):
         np.maximum.at(longest, inside, _lengths(polyline, fine))
         runs = (np.diff(coarse) > FEWEST_STRAIGHT) & (longest >= ONE_CHORD * lengths)
         return bool((runs & (lengths >= LEAST_TOLERANCES * self.tolerance)).any())
+
+
+def filled(contour: Contour) -> Contour:
+    """The contour with points along edges far longer than most: those were drawn as lines.
+
+    Examples
+    --------
+    >>> x = np.append(np.linspace(0, 1, 50), 9.0)
+    >>> len(filled(Contour(np.column_stack([x, 0 * x]), closed=False)))
+    66
+    """
+    polyline = contour.polyline
+    steps = np.hypot(*np.diff(polyline, axis=0).T)
+    parts = np.where(steps > LONG_EDGE * np.median(steps), 2 * FEWEST_STRAIGHT, 1)
+    if (parts == 1).all():
+        return contour
+    begins = np.repeat(np.arange(len(steps)), parts)
+    share = np.concatenate([np.arange(count) / count for count in parts.tolist()])
+    along = np.diff(polyline, axis=0)[begins]
+    points = polyline[begins] + share[:, None] * along
+    if not contour.closed:
+        points = np.concatenate([points, polyline[-1:]])
+    return Contour.trusted(points, contour.closed, contour.accuracy)
 
 
 def _in_frame(held: Held, frame: WorkingFrame) -> Held:

@@ -13,7 +13,7 @@ from shapespline.arrays import float_array, is_number
 from shapespline.drawing import Status
 from shapespline.errors import InvalidInputError
 from shapespline.held import Held
-from shapespline.outline import FEWEST_STRAIGHT, STRAIGHT_PART, SearchOutline
+from shapespline.outline import FEWEST_STRAIGHT, STRAIGHT_PART, SearchOutline, filled
 from shapespline.removal import fit_spline
 from shapespline.sections import ROUGH_PART, fit_pieces
 from shapespline.symmetry import fit_mirrored
@@ -138,7 +138,7 @@ def fit_within(
         return fit
     if watch.ended_as or held.anything or (len(outline.corners) and not free):
         return fit
-    drawn = contour if dense is None else dense
+    drawn = filled(contour if dense is None else dense)
     if not free and any(_drawn_straight(piece, drawn, tolerance) for piece in found.pieces):
         return fit
     smooth = smooth or _single(contour, tolerance, degree, effort, watch, outline.frame)
@@ -178,8 +178,12 @@ def _drawn_straight(piece: Piece, contour: Contour, tolerance: float) -> bool:
     length = float(np.hypot(*side))
     along = (contour.points - begin) @ side / length**2
     off = (contour.points - begin) @ np.array([-side[1], side[0]]) / length
-    beside = off[(np.abs(along - 0.5) < 0.4) & (np.abs(off) <= tolerance)]
-    return len(beside) >= FEWEST_STRAIGHT and float(np.ptp(beside)) <= STRAIGHT_PART * tolerance
+    beside = (np.abs(along - 0.5) < 0.4) & (np.abs(off) <= tolerance)
+    if np.count_nonzero(beside) < FEWEST_STRAIGHT:
+        return False
+    # They may lie on another line, within the tolerance.
+    tilt = np.polynomial.Polynomial.fit(along[beside], off[beside], 1)
+    return float(np.ptp(off[beside] - tilt(along[beside]))) <= STRAIGHT_PART * tolerance
 
 
 def _ended(fit: Fit, watch: Watch) -> Fit:
