@@ -239,3 +239,28 @@ def test_a_file_is_not_held_in_memory(tmp_path):
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     # The file has 256 million bytes.
     assert int(done.stdout) < 64_000_000
+
+
+@pytest.mark.parametrize(("shift", "reversed_"), [(123_456, False), (0, True), (200_001, True)])
+def test_in_memory_the_first_point_and_the_direction_do_not_matter(shift, reversed_):
+    points = rose(400_000, 0.004)
+    turned = np.roll(points, -shift, axis=0)
+    turned = turned[::-1] if reversed_ else turned
+    one, other = (ss.fit_curve(p, closed=True, tolerance=0.1) for p in (points, turned))
+    assert one.kept
+    assert one.max_distance == other.max_distance
+    if not reversed_:
+        assert_array_equal(one.control_points, other.control_points)
+    for fit, given in ((one, points), (other, turned)):
+        at = np.arange(0, len(given), 999)
+        off = np.hypot(*(fit.curve(fit.parameters[at]) - given[at]).T)
+        assert off.max() <= fit.max_distance
+        assert fit.contour.n_given == len(fit.parameters) == 400_000
+
+
+def test_repeated_points_in_memory_have_parameters_too():
+    points = np.repeat(rose(150_000), 2, axis=0)
+    with pytest.warns(ss.DroppedPointsWarning):
+        fit = ss.fit_curve(points, closed=True, tolerance=0.1)
+    assert len(fit.parameters) == 300_000
+    assert_array_equal(fit.parameters[::2], fit.parameters[1::2])

@@ -27,6 +27,7 @@ from shapespline.estimation import (
 from shapespline.frame import WorkingFrame, reversed_curve
 from shapespline.joining import joined
 from shapespline.knots import check_count, check_degree
+from shapespline.large import fit_all_in_passes
 from shapespline.optimization import checked_weights, optimize
 from shapespline.ordering import looks_shuffled
 from shapespline.outliers import find_outliers
@@ -50,6 +51,8 @@ if TYPE_CHECKING:
     from shapespline.typing import ArrayLike, IntArray
 
 Knots = Literal["balanced", "dominant", "uniform"]
+# So many points are fitted within a tolerance in passes over chunks, where nothing asks for more.
+MANY_POINTS = 200_000
 # What least squares of a given size starts from.
 STARTS = {"balanced": balanced_start, "dominant": dominant_start, "uniform": uniform_start}
 
@@ -228,6 +231,12 @@ def fit_curve(
         length = tolerance_length(tolerance, contour)
         held = checked_held(contour, ends, end_tangents, through)
         watch = Watch(callback, time_limit)
+        corners = checked_corners(corners, len(contour))
+        found = None
+        if len(contour) >= MANY_POINTS and not (held.anything or symmetric):
+            found = fit_all_in_passes(contour, length, degree, corners, form, effort, watch)
+        if found is not None:
+            return found
         return fit_within(contour, length, degree, corners, form, held, symmetric, effort, watch)
     if end_tangents is not None or through is not None or symmetric:
         raise InvalidInputError(

@@ -59,7 +59,8 @@ class WorkingFrame(NamedTuple):
     def of(cls, contour: Contour) -> WorkingFrame:
         """The frame of a contour."""
         points = contour.points
-        order, backwards = _canonical_order(points, closed=contour.closed)
+        start, step = canonical_reading(points, closed=contour.closed)
+        order = (start + step * np.arange(len(points))) % len(points)
         scale = ldexp(1.0, 7 - frexp(contour.box_diagonal)[1])
         middle = np.array([x.min() + 0.5 * np.ptp(x) for x in points.T])
         moved = (points[order] - middle) * scale
@@ -70,7 +71,7 @@ class WorkingFrame(NamedTuple):
             moved = points[order] * scale
         accuracy = None if contour.accuracy is None else contour.accuracy * scale
         work = Contour.trusted(moved, contour.closed, accuracy)
-        return cls(work, order, middle, scale, backwards)
+        return cls(work, order, middle, scale, step < 0)
 
     @classmethod
     def of_working(cls, contour: Contour) -> WorkingFrame:
@@ -148,15 +149,13 @@ def reversed_curve(curve: BSplineCurve) -> BSplineCurve:
     return BSplineCurve(knots, np.ascontiguousarray(control_points), curve.degree, curve.periodic)
 
 
-def _canonical_order(points: FloatArray, *, closed: bool) -> tuple[IntArray, bool]:
-    """Indices in an order that depends on the geometry only, and whether it runs backwards.
+def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
+    """First index and step, 1 or -1, of an order that depends on the geometry only.
 
     Of all ways to read the points the one whose coordinates come first in the dictionary: closed
     outlines start at a point with the least x, then y, open ones at an end.
     """
-    n = len(points)
-    index = np.arange(n)
-    ends = [0, n - 1]
+    ends = [0, len(points) - 1]
     if closed:
         leftmost = np.flatnonzero(points[:, 0] == points[:, 0].min())
         least = points[leftmost, 1].min()
@@ -167,8 +166,7 @@ def _canonical_order(points: FloatArray, *, closed: bool) -> tuple[IntArray, boo
     for reading in readings[1:]:
         if _comes_first(points, reading, best):
             best = reading
-    start, step = best
-    return (start + step * index) % n, step < 0
+    return best
 
 
 def _comes_first(points: FloatArray, a: tuple[int, int], b: tuple[int, int]) -> bool:

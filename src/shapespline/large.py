@@ -10,6 +10,7 @@ cluster.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -20,13 +21,14 @@ from shapespline.corners import find_corners
 from shapespline.distance import CentredCurve, Distances, reverse_distance, rounding
 from shapespline.drawing import Fit
 from shapespline.errors import InvalidInputError
-from shapespline.frame import LONGEST_CHORD, WorkingFrame
+from shapespline.frame import LONGEST_CHORD, WorkingFrame, canonical_reading, reversed_curve
 from shapespline.held import Held
+from shapespline.joining import backwards
 from shapespline.knots import check_degree
 from shapespline.large_fit import FootParameters, LargeFit
 from shapespline.outline import GENTLE_TURN, SearchOutline
-from shapespline.passes import Passes
-from shapespline.point_stream import PointStream
+from shapespline.passes import Measured, Passes
+from shapespline.point_stream import PointStream, TurnedPoints
 from shapespline.progress import Watch
 from shapespline.stand_in import StandIn
 from shapespline.tolerance import fit_within, tolerance_length
@@ -37,7 +39,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from shapespline.tolerance import Effort, Form
-    from shapespline.typing import IntArray
+    from shapespline.typing import ArrayLike, IntArray
 
 
 def fit_large(
@@ -117,47 +119,107 @@ def fit_large(
 
     seen = passes.look()
     closed = seen.ends_meet if closed is None else bool(closed)
-    sample = Contour.silently(seen.sample, closed)
     box = Contour.silently(np.array([seen.low, seen.high]), closed=False)
     length = tolerance_length(tolerance, box)
-
     standing = StandIn.of(passes, seen, closed, length, LONGEST_CHORD * box.box_diagonal)
-    thinned = Contour.silently(standing.points, closed)
+    sample = Contour.silently(seen.sample, closed)
+    fit = _fitted(standing, sample, stream.n_points, length, degree, corners, form, effort, watch)
+    curve = CentredCurve.of(fit.spline, fit.contour)
+    found = _distances(fit, passes.measure(curve), standing, stream.n_points)
+    named = {name: getattr(fit, name) for name in Fit.__dataclass_fields__}
+    named |= _verified(found, length, watch)
+    return LargeFit(**named, n_points=stream.n_points, feet=FootParameters(stream, curve))
+
+
+def fit_all_in_passes(
+    contour: Contour,
+    tolerance: float,
+    degree: int,
+    corners: Literal["auto", "free"] | ArrayLike | None,
+    form: Form,
+    effort: Effort,
+    watch: Watch,
+) -> Fit | None:
+    """The same for a contour in memory, whose order is the canonical one, with all parameters.
+
+    None where nothing smaller can stand for the points, or corners are named among them.
+    """
+    chosen: Literal["auto", "free"] | None = None
+    if isinstance(corners, str):
+        chosen = "free" if corners == "free" else "auto"
+    elif corners is not None:
+        return None
+    start, step = canonical_reading(contour.points, closed=contour.closed)
+    stream = PointStream(TurnedPoints(contour.points, start, step))
+    passes = Passes(stream, None, in_all=3)
+    seen = passes.look()
+    longest = LONGEST_CHORD * contour.box_diagonal
+    try:
+        standing = StandIn.of(passes, seen, contour.closed, tolerance, longest)
+    except InvalidInputError:
+        return None
+    sample = Contour.silently(seen.sample, contour.closed, accuracy=contour.accuracy)
+    n = len(contour)
+    fit = _fitted(standing, sample, n, tolerance, degree, chosen, form, effort, watch)
+    curve = CentredCurve.of(fit.spline, fit.contour)
+    along = np.empty(n)
+    measured = passes.measure(curve, np.split(along, stream.begins[1:-1]))
+    spline, sections, parameters = fit.spline, fit.sections, np.roll(along, start)
+    if step < 0:
+        spline, sections = reversed_curve(spline), backwards(sections)
+        parameters = np.roll(1.0 - along[::-1], start + 1)
+    found = _distances(fit, measured, standing, n)
+    return replace(
+        fit,
+        contour=contour,
+        spline=spline,
+        sections=sections,
+        parameters=parameters if contour.n_given == n else parameters[contour.source],
+        **_verified(found, tolerance, watch),
+    )
+
+
+def _fitted(
+    standing: StandIn,
+    sample: Contour,
+    n_points: int,
+    tolerance: float,
+    degree: int,
+    corners: Literal["auto", "free"] | None,
+    form: Form,
+    effort: Effort,
+    watch: Watch,
+) -> Fit:
+    """The fit to the vertices that stand for all points, within what is left of the tolerance."""
+    thinned = Contour.silently(standing.points, sample.closed, accuracy=sample.accuracy)
     # Repeated points are gone.
     indices = standing.indices[np.unique(thinned.source, return_index=True)[1]]
-    aim = length - standing.off
-    outline = _outline(thinned, indices, sample, aim, corners, stream.n_points)
-    fit = fit_within(
-        thinned,
-        aim,
-        degree,
-        corners,
-        form,
-        Held(),
-        False,
-        effort,
-        watch,
-        outline,
-        sample,
+    aim = tolerance - standing.off
+    outline = _outline(thinned, indices, sample, aim, corners, n_points)
+    return fit_within(
+        thinned, aim, degree, corners, form, Held(), False, effort, watch, outline, sample
     )
 
-    curve = CentredCurve.of(fit.spline, thinned)
-    measured = passes.measure(curve)
-    found = Distances(
-        float(np.sqrt(measured.largest)) + rounding(fit.spline, thinned),
-        float(np.sqrt(measured.total / stream.n_points)),
-        reverse_distance(fit.spline, thinned) + standing.off,
+
+def _distances(fit: Fit, measured: Measured, standing: StandIn, n_points: int) -> Distances:
+    """Of all points, from those that stand for them."""
+    return Distances(
+        float(np.sqrt(measured.largest)) + rounding(fit.spline, fit.contour),
+        float(np.sqrt(measured.total / n_points)),
+        reverse_distance(fit.spline, fit.contour) + standing.off,
         fit.parameters,
     )
-    named = {name: getattr(fit, name) for name in Fit.__dataclass_fields__}
-    named |= {
+
+
+def _verified(found: Distances, tolerance: float, watch: Watch) -> dict[str, Any]:
+    """The fields of a Fit that tell of its distances."""
+    return {
         "max_distance": found.max_distance,
         "rms_distance": found.rms_distance,
         "hausdorff_distance": found.hausdorff_distance,
-        "tolerance": length,
-        "status": watch.verdict(status_of(found, length)),
+        "tolerance": tolerance,
+        "status": watch.verdict(status_of(found, tolerance)),
     }
-    return LargeFit(**named, n_points=stream.n_points, feet=FootParameters(stream, curve))
 
 
 def _outline(

@@ -84,9 +84,15 @@ class Passes:
             np.concatenate([part.sample for part in found]),
         )
 
-    def measure(self, curve: CentredCurve) -> Measured:
-        """Squared distances from all points to a curve."""
-        found = self.over_all(_measure, [(curve,)] * len(self.stream))
+    def measure(
+        self, curve: CentredCurve, parts: Sequence[FloatArray | None] | None = None
+    ) -> Measured:
+        """Squared distances from all points to a curve.
+
+        ``parts`` are arrays, one for each chunk, that take the parameters of the feet.
+        """
+        parts = [None] * len(self.stream) if parts is None else parts
+        found = self.over_all(_measure, [(curve, part) for part in parts])
         return Measured(max(m.largest for m in found), float(np.sum([m.total for m in found])))
 
     def over_all(self, function: Any, arguments: Sequence[tuple[Any, ...]]) -> list[Any]:
@@ -104,7 +110,8 @@ class Passes:
 
 
 def _look(points: FloatArray, begin: int, stride: int) -> Seen:
-    low, high = points.min(axis=0), points.max(axis=0)
+    x, y = points[:, 0], points[:, 1]
+    low, high = np.array([x.min(), y.min()]), np.array([x.max(), y.max()])
     if not (np.isfinite(low).all() and np.isfinite(high).all()):
         bad = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise InvalidInputError(
@@ -113,12 +120,14 @@ def _look(points: FloatArray, begin: int, stride: int) -> Seen:
         )
     longest = 0.0
     if len(points) > 1:
-        longest = float(np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1).max()))
+        longest = float(np.sqrt((np.diff(x) ** 2 + np.diff(y) ** 2).max()))
     # Copies: a view would keep the whole chunk in memory.
     first, last = points[:1].copy(), points[-1].copy()
     return Seen(low, high, first, last, longest, points[-begin % stride :: stride].copy())
 
 
-def _measure(points: FloatArray, curve: CentredCurve) -> Measured:
-    distances_sq = curve.nearest(points).distances_sq
+def _measure(points: FloatArray, curve: CentredCurve, part: FloatArray | None) -> Measured:
+    parameters, distances_sq = curve.nearest(points)
+    if part is not None:
+        part[:] = parameters
     return Measured(float(distances_sq.max()), float(distances_sq.sum()))

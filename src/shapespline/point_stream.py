@@ -135,6 +135,25 @@ class PointStream:
                 future.cancel()
 
 
+class TurnedPoints:
+    """Points read from another one on, forwards or backwards, without a copy of them.
+
+    Examples
+    --------
+    >>> points = np.arange(10.0).reshape(5, 2)
+    >>> TurnedPoints(points, 3, 1)[0:3].tolist(), TurnedPoints(points, 1, -1)[1:3].tolist()
+    ([[6.0, 7.0], [8.0, 9.0], [0.0, 1.0]], [[0.0, 1.0], [8.0, 9.0]])
+    """
+
+    def __init__(self, points: FloatArray, start: int, step: int) -> None:
+        self._points, self._start, self._step = points, start, step
+        self.shape, self.dtype = points.shape, points.dtype
+
+    def __getitem__(self, part: slice) -> FloatArray:
+        index = self._start + self._step * np.arange(part.start, part.stop)
+        return self._points.take(index, axis=0, mode="wrap")
+
+
 def _map_blocks(
     function: Callable[..., Result], blocks: Sequence[Any], arguments: Sequence[tuple[Any, ...]]
 ) -> Iterator[Result]:
