@@ -87,33 +87,41 @@ class ChainSolver {
     static constexpr double kLargestShrink = 0.6, kLeastGap = 0.02;
     static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-    // Numbers the unknowns along the chain: node, inner control points and knots, next node.
+    // Numbers the unknowns along the chain: node, inner control points with the knots in the middle
+    // of what they shape, next node. Only neighbours meet in a span: the matrix is narrow.
     void set_unknowns(bool free_knots) {
         if (!unknown_.empty() && free_knots == free_knots_) return;
         free_knots_ = free_knots;
         unknown_.assign(model_.size(), {});
         std::size_t next = 0, node = model_.node_free(0) ? next : kNone;
         if (node != kNone) next += 2;
-        std::vector<std::size_t> first_column(next, 0);
         for (std::size_t s = 0; s < model_.size(); ++s) {
             const SectionView section = model_.section(shape_only_, s);
+            const std::size_t n = section.n_points;
+            const std::size_t n_knots = free_knots ? section.n_interior_knots() : 0;
             auto &unknown = unknown_[s];
-            const std::size_t start = node != kNone ? node : next;
-            unknown.assign(2 * section.n_points, kNone);
+            unknown.assign(2 * n + n_knots, kNone);
             if (node != kNone) {
                 unknown[0] = node;
                 unknown[1] = node + 1;
             }
-            for (std::size_t l = 2; l + 2 < 2 * section.n_points; ++l) unknown[l] = next++;
-            for (std::size_t k = 0; free_knots && k < section.n_interior_knots(); ++k)
-                unknown.push_back(next++);
+            std::size_t knot = 0;
+            for (std::size_t l = 1; l + 1 < n; ++l) {
+                unknown[2 * l] = next++;
+                unknown[2 * l + 1] = next++;
+                if (l >= (section.degree + 1u) / 2 && knot < n_knots)
+                    unknown[2 * n + knot++] = next++;
+            }
+            while (knot < n_knots) unknown[2 * n + knot++] = next++;
             node = model_.node_free(s + 1) ? next : kNone;
             if (node != kNone) {
-                unknown[2 * section.n_points - 2] = next++;
-                unknown[2 * section.n_points - 1] = next++;
+                unknown[2 * n - 2] = next++;
+                unknown[2 * n - 1] = next++;
             }
-            first_column.resize(next, start);
         }
+        std::vector<std::size_t> first_column(next);
+        for (std::size_t i = 0; i < next; ++i) first_column[i] = i;
+        for (std::size_t s = 0; s < model_.size(); ++s) couple(s, first_column);
         for (const std::size_t i : model_.tangent_joints()) {
             const auto at = joint_unknowns(i);
             const std::size_t lowest = *std::min_element(at.begin(), at.end());
@@ -123,6 +131,24 @@ class ChainSolver {
         empty_ = EnvelopeMatrix(std::move(first_column));
         step_.resize(next);
         gradient_.resize(next);
+    }
+
+    // Widens the rows of the unknowns that shape a span to the lowest of them.
+    void couple(std::size_t s, std::vector<std::size_t> &first_column) const {
+        const SectionView section = model_.section(shape_only_, s);
+        const std::size_t p = section.degree, n = section.n_points;
+        const std::size_t n_knots = unknown_[s].size() - 2 * n;
+        std::vector<std::size_t> active;
+        for (std::size_t span = 0; span < section.n_spans(); ++span) {
+            active.clear();
+            for (std::size_t l = 2 * span; l < 2 * (span + p + 1); ++l)
+                active.push_back(unknown_[s][l]);
+            for (std::size_t k = span > p ? span - p : 0; k < std::min(n_knots, span + p); ++k)
+                active.push_back(unknown_[s][2 * n + k]);
+            const std::size_t lowest = *std::min_element(active.begin(), active.end());
+            for (const std::size_t u : active)
+                if (u != kNone) first_column[u] = std::min(first_column[u], lowest);
+        }
     }
 
     // Unknowns of the control points before, at and after a joint.
@@ -159,8 +185,9 @@ class ChainSolver {
             for (std::size_t i = 0; i < normal_.size(); ++i) {
                 if (unknown[i] == kNone) continue;
                 gradient_[unknown[i]] += normal_.gradient(i);
+                const std::size_t first = matrix_.first_column(unknown[i]);
                 for (std::size_t j = 0; j < normal_.size(); ++j)
-                    if (unknown[j] <= unknown[i])
+                    if (unknown[j] >= first && unknown[j] <= unknown[i])
                         matrix_.at(unknown[i], unknown[j]) += normal_.matrix(i, j);
             }
         }

@@ -37,9 +37,15 @@ class EnvelopeMatrix {
             double *row_i = row(i);
             for (std::size_t j = first_[i]; j <= i; ++j) {
                 const double *row_j = row(j);
-                double sum = row_i[j];
-                for (std::size_t k = std::max(first_[i], first_[j]); k < j; ++k)
+                // Two sums: each product need not wait for the one before it.
+                double sum = row_i[j], other = 0.0;
+                std::size_t k = std::max(first_[i], first_[j]);
+                for (; k + 1 < j; k += 2) {
                     sum -= row_i[k] * row_j[k];
+                    other -= row_i[k + 1] * row_j[k + 1];
+                }
+                if (k < j) sum -= row_i[k] * row_j[k];
+                sum += other;
                 if (j < i) {
                     row_i[j] = sum / row_j[j];
                 } else {
