@@ -118,7 +118,7 @@ def fit_curve(
     symmetric : bool
         Whether a mirror symmetry that a closed outline has within a part of the tolerance is kept
         exactly: one half is fitted and reflected, which may take some points more. Without, that
-        is done where it takes none.
+        is done where it takes none, unless the search is to be fast.
     effort : {"fast", "balanced", "smallest"}
         How long to search.
     weights : array_like, shape (n,), optional

@@ -97,7 +97,7 @@ def fit_within(
         if _followed(smooth) or watch.ended_as:
             return smooth
     mirrored = None
-    if not (free or held.anything):
+    if not (free or held.anything) and (symmetric or effort != "fast"):
         mirrored = fit_mirrored(
             contour, tolerance, degree=degree, effort=effort, watch=watch, outline=outline
         )
