@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import shapespline as ss
+from benchmarks.peers import polyline_points, splprep_points
 
 ROOT = Path(__file__).parent.parent
 DATA = ROOT / "examples" / "data"
@@ -68,7 +69,34 @@ def by_count() -> None:
     figure.savefig(TARGET / "by_count.png", dpi=90, metadata={"Software": None})
 
 
+def by_tolerance() -> None:
+    """Three outlines within half a per cent, with the points that the peers need."""
+    figure = Figure(figsize=(15, 6.2), layout="constrained")
+    names = ("hand620_closed", "leaf840_closed", "plane1100_closed")
+    for axes, name in zip(figure.subplots(1, 3), names, strict=True):
+        contour = ss.Contour(np.loadtxt(DATA / "outlines" / f"{name}.csv", delimiter=","), True)
+        tolerance = 0.005 * contour.box_diagonal
+        fit = ss.fit_curve(contour, tolerance=tolerance)
+        asked = {"closed": True, "tolerance": tolerance}
+        splprep = splprep_points(contour.points, **asked).n_points
+        polyline = polyline_points(contour.points, **asked).n_points
+        axes.plot(*contour.points.T, ".", ms=2.5, color="#999999", label="data")
+        axes.plot(*fit.spline(np.linspace(0, 1, 6000)).T, color="#0072B2", lw=1.4, label="curve")
+        ends = np.array([piece.control_points[0] for piece in fit.pieces])
+        axes.plot(*ends.T, "o", ms=4, color="#D55E00", label="ends of pieces", mew=0)
+        axes.set_title(
+            f"{fit.n_stored_points} stored points within 0.5 % of the size, both ways\n"
+            f"(splprep {splprep}, polyline {polyline})",
+            fontsize=10,
+        )
+        axes.set_aspect("equal")
+        axes.set_axis_off()
+    axes.legend(loc="lower right", frameon=False, fontsize=9)
+    figure.savefig(TARGET / "by_tolerance.png", dpi=90, metadata={"Software": None})
+
+
 if __name__ == "__main__":
     TARGET.mkdir(parents=True, exist_ok=True)
     from_pictures()
     by_count()
+    by_tolerance()

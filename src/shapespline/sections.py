@@ -9,12 +9,13 @@ kernel call; this module decides what it may do, and verifies what it did.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import product
+from itertools import pairwise, product
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.corners import LEAST_TURN
 from shapespline.distance import Distances, two_sided_distance
 from shapespline.drawing import Piece
 from shapespline.errors import InvalidInputError
@@ -38,6 +39,9 @@ if TYPE_CHECKING:
 AIMS = (0.999, 0.97, 0.9, 0.7)
 # Beyond this part of the number of points the data are rough, and lines may be the smaller.
 ROUGH_PART = 0.3
+# Beyond this part of the vertices of a polyline found in one pass, which are more than need be,
+# lines are looked at.
+CHORDS_PART = 0.7
 # A node that turns more is a corner of the result, radians.
 SHARP_TURN = np.radians(1.01)
 # Sections are at most cubic; higher degrees are made by elevation.
@@ -167,14 +171,20 @@ def fit_pieces(
         if watch.ended_as or results[-1].kept:
             break
     found = results[-1] if results else None
-    enough = min(ROUGH_PART * len(contour), _n_chords(work))
-    if found and found.kept and found.n_stored_points <= enough:
+    n_chords = _n_chords(work)
+    followed = found is not None and found.kept
+    if found and followed and found.n_stored_points <= CHORDS_PART * n_chords:
         return found
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
     straight = work._replace(held=work.held._replace(tangents=(None, None)))
     lines = SectionSearch(straight, 1, False, False, Watch()).run(
         AIMS[0] * work.tolerance, SEARCHES["fast"][0]._replace(stride=1)
     )
+    rough = min(ROUGH_PART * len(contour), n_chords)
+    if found and followed and found.n_stored_points <= rough:
+        fewer = _size(lines) + (not contour.closed) < found.n_stored_points
+        if not (fewer and _drawn_with_lines(lines, contour.closed)):
+            return found
     results.append(verified_pieces(work.frame, lines, contour, tolerance, degree, held))
     if not any(result.kept for result in results):
         every = _through_all(whole.frame.contour)
@@ -245,6 +255,14 @@ def _smallest_run(
 
 def _size(pieces: Sequence[Piece]) -> int:
     return sum(len(piece.control_points) - 1 for piece in pieces)
+
+
+def _drawn_with_lines(lines: Sequence[Piece], closed: bool) -> bool:
+    """Whether lines meet in corners everywhere, not in the facets of a curve."""
+    turns = [abs(turn_between(before, after)) for before, after in pairwise(lines)]
+    if closed:
+        turns.append(abs(turn_between(lines[-1], lines[0])))
+    return min(turns, default=np.pi) >= LEAST_TURN
 
 
 def _n_chords(outline: SearchOutline) -> int:

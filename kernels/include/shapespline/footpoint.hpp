@@ -106,7 +106,7 @@ class CurveSearch {
     static constexpr int kMaxDepth = 8, kMinDepth = 2, kNewtonSteps = 32;
     // Newton's method squares its error: what is left after a step so small is nothing to the
     // distance, which it changes by its square again.
-    static constexpr double kLastStep = 1e-6;
+    static constexpr double kLastStep = 1e-7;
     static constexpr double kUnknown = -2.0;
 
     // Pieces whose control polygon is at most 2 % longer than its chord: on them the squared
