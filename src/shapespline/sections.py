@@ -183,7 +183,8 @@ def fit_pieces(
     rough = min(ROUGH_PART * len(contour), n_chords)
     if found and followed and found.n_stored_points <= rough:
         fewer = _size(lines) + (not contour.closed) < found.n_stored_points
-        if not (fewer and _drawn_with_lines(lines, contour.closed)):
+        named = not isinstance(corners, str)
+        if named or not (fewer and _drawn_with_lines(lines, contour.closed)):
             return found
     results.append(verified_pieces(work.frame, lines, contour, tolerance, degree, held))
     if not any(result.kept for result in results):
