@@ -171,20 +171,23 @@ def fit_pieces(
         if watch.ended_as or results[-1].kept:
             break
     found = results[-1] if results else None
-    n_chords = _n_chords(work)
     followed = found is not None and found.kept
-    if found and followed and found.n_stored_points <= CHORDS_PART * n_chords:
+    rough = ROUGH_PART * len(contour)
+    if isinstance(corners, str):  # else the corners are known, and lines would make others
+        n_chords = _n_chords(work)
+        rough = min(rough, n_chords)
+        if found and followed and found.n_stored_points <= CHORDS_PART * n_chords:
+            return found
+    elif found and followed and found.n_stored_points <= rough:
         return found
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
     straight = work._replace(held=work.held._replace(tangents=(None, None)))
     lines = SectionSearch(straight, 1, False, False, Watch()).run(
         AIMS[0] * work.tolerance, SEARCHES["fast"][0]._replace(stride=1)
     )
-    rough = min(ROUGH_PART * len(contour), n_chords)
     if found and followed and found.n_stored_points <= rough:
         fewer = _size(lines) + (not contour.closed) < found.n_stored_points
-        named = not isinstance(corners, str)
-        if named or not (fewer and _drawn_with_lines(lines, contour.closed)):
+        if not (fewer and _drawn_with_lines(lines, contour.closed)):
             return found
     results.append(verified_pieces(work.frame, lines, contour, tolerance, degree, held))
     if not any(result.kept for result in results):
