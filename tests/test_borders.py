@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from benchmarks.outside_metric import two_sided
@@ -10,7 +12,10 @@ from tests.shapes import on_circle
 
 import shapespline as ss
 from shapespline.crossings import crossing_pairs, self_crossings
+from shapespline.exact import sampled
 from shapespline.shared import shared_arcs
+
+IMAGES = Path(__file__).resolve().parents[1] / "examples" / "data" / "images"
 
 
 def wavy(a, b, height, waves, n=60):
@@ -154,3 +159,19 @@ def test_crossings_by_hand():
     rng = np.random.default_rng(1)
     long = np.cumsum(rng.standard_normal((3000, 2)), axis=0)
     assert crossing_pairs([long, long + 0.1]) == {(0, 1)}
+
+
+def test_slits_stay_open_at_the_price_of_the_pieces_beside_them():
+    picture = ss.read(IMAGES / "opencv_butterfly.jpg", contours="longest")
+    (contour,) = picture
+    alone = ss.fit_curve(contour, tolerance=1.5)
+    (fit,) = ss.fit_shape(picture, tolerance=1.5)
+    assert self_crossings(sampled(alone.spline, 0.03)[0].polyline) > 0
+    assert self_crossings(contour.polyline) == 0
+    assert self_crossings(sampled(fit.spline, 0.01)[0].polyline) == 0
+    assert fit.kept
+    assert fit.tolerance == 1.5
+    found = two_sided(fit.curve, contour.points, closed=True, step=0.15)
+    assert found.larger <= 1.5
+    # Everything fitted closer until nothing crosses: eight times as many points.
+    assert fit.n_stored_points < 2 * alone.n_stored_points

@@ -40,7 +40,7 @@ TIERS = [
     {"symmetry"},
     {"tolerance"},
     {"large"},
-    {"fitting"},
+    {"fitting", "uncrossing"},
     {"reconstruction", "paper", "paper_report"},
     {"batch"},
     {"cli", "studio", "__main__"},

@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
 from shapespline.contour import Contour, Shape
-from shapespline.crossings import crossing_pairs, self_crossings
 from shapespline.drawing import Drawing
 from shapespline.errors import InvalidInputError
-from shapespline.exact import sampled
 from shapespline.fitting import fit_curve
 from shapespline.frame import reversed_curve
 from shapespline.joining import backwards, joined
 from shapespline.shared import shared_arcs
 from shapespline.tolerance import Effort, Ends, Form, tolerance_length
+from shapespline.uncrossing import uncrossed
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
     from shapespline.drawing import Fit, Piece
     from shapespline.optimization import Callback
-    from shapespline.typing import FloatArray
+    from shapespline.uncrossing import Tangents
 
-# Curves are looked at for crossings as polylines within this part of the tolerance; those that
-# cross are fitted so many times with half the tolerance.
-SAMPLING_PART, CLOSER_ROUNDS = 0.02, 5
 # Of the tolerance: points of two contours that are no farther apart are one point of a boundary.
 SNAP_PART = 0.01
 
@@ -109,6 +104,18 @@ def fit_shape(
             outliers=outliers,
         )
 
+    def closer(part: Contour, within: float, tangents: Tangents) -> Fit:
+        free = corners == "free" or all(tangent is None for tangent in tangents)
+        return fit_curve(
+            part,
+            tolerance=within,
+            degree=degree,
+            corners=corners,
+            effort=effort,
+            ends="fixed",
+            end_tangents=None if free else tangents,
+        )
+
     if shared_boundaries:
         if tolerance is None or outliers:
             raise InvalidInputError("shared_boundaries need a tolerance, and exclude outliers")
@@ -118,7 +125,7 @@ def fit_shape(
             _named(index, shape, contour, tolerance, fit) for index, contour in enumerate(shape)
         ]
         if n_control_points is None:
-            fits = _uncrossed(shape, fits, fit)
+            fits = uncrossed(shape.contours, fits, closer)
     return Drawing(fits, shape.parents, shape.frame, shape.unit)
 
 
@@ -138,50 +145,6 @@ def _named(
         if len(shape) == 1:
             raise
         raise type(error)(f"contour {index} of {len(shape)}: {error}") from error
-
-
-def _uncrossed(shape: Shape, fits: list[Fit], fit: _FitContour) -> list[Fit]:
-    """Fits that cross no more than their data, as far as closer fits can bring that about."""
-    fits = list(fits)
-    lines = [_line(found) for found in fits]
-    within = [found.tolerance for found in fits]
-    for _ in range(CLOSER_ROUNDS):
-        crossed = _newly_crossed(shape, lines)
-        if not crossed:
-            return fits
-        for index in crossed:
-            within[index] *= 0.5
-            closer = fit(shape.contours[index], within[index])
-            # The promise is still the one that was asked for, or was found first.
-            asked = fits[index].tolerance
-            fits[index] = replace(closer, tolerance=max(asked, closer.hausdorff_distance))
-            lines[index] = _line(closer)
-    for index in _newly_crossed(shape, lines):
-        status = fits[index].status
-        sentence = f"{status.value}; it crosses a curve where the data do not"
-        fits[index] = replace(fits[index], status=status.saying(sentence))
-    return fits
-
-
-def _line(fit: Fit) -> FloatArray:
-    return sampled(fit.spline, SAMPLING_PART * fit.tolerance)[0].polyline
-
-
-def _newly_crossed(shape: Shape, lines: list[FloatArray]) -> list[int]:
-    """Contours whose curves cross another or themselves where the data do not."""
-    data = [contour.polyline for contour in shape]
-    found = {
-        index
-        for i, j in crossing_pairs(lines)
-        if not crossing_pairs([data[i], data[j]])
-        for index in (i, j)
-    }
-    found |= {
-        index
-        for index, line in enumerate(lines)
-        if self_crossings(line) > self_crossings(data[index])
-    }
-    return sorted(found)
 
 
 def _with_shared(shape: Shape, tolerance: float, degree: int, fit: _FitContour) -> list[Fit]:
