@@ -64,6 +64,9 @@ def uncrossed(
     ``refit`` fits an open row of points within a distance, with its ends and, where given, its end
     tangents. Fits that cross after all say so in their status.
     """
+    lines = [sampled(fit.spline, SAMPLING_PART * fit.tolerance)[0].polyline for fit in fits]
+    if not _new_crossings(contours, lines):
+        return list(fits)
     parts = [_parts(fit.contour, _pieces(fit), fit.tolerance) for fit in fits]
     changed: set[int] = set()
     crossing: list[tuple[int, int]] = []
@@ -128,8 +131,8 @@ def _parts(contour: Contour, pieces: Sequence[Piece], within: float) -> list[Par
         reach = ALONG * length + TOLERANCES * within
         target = along[begins[-1]] + length
         low, high = np.searchsorted(along, [target - reach, target + reach])
-        low, high = max(int(low), begins[-1]), max(int(high), begins[-1] + 1)
-        near = points[low:high]
+        low = min(max(int(low), begins[-1]), len(points) - 1)
+        near = points[low : max(int(high), low + 1)]
         begins.append(low + int(((near - node) ** 2).sum(axis=1).argmin()))
     begins.append(len(points) - 1)
     return [
@@ -156,17 +159,8 @@ def _crossing_parts(
     """Contour and index of the parts that cross others, or themselves, where no data cross."""
     lines = [[part.line for part in row] for row in parts]
     whole = [np.concatenate([*(line[:-1] for line in row), row[-1][-1:]]) for row in lines]
-    data = [contour.polyline for contour in contours]
-    pairs = {
-        pair for pair in crossing_pairs(whole) if not crossing_pairs([data[pair[0]], data[pair[1]]])
-    }
-    pairs |= {
-        (index, index)
-        for index, line in enumerate(whole)
-        if self_crossings(line) > self_crossings(data[index])
-    }
     found: set[tuple[int, int]] = set()
-    for i, j in pairs:
+    for i, j in _new_crossings(contours, whole):
         mine = [(i, k) for k in range(len(lines[i]))]
         yours = [] if i == j else [(j, k) for k in range(len(lines[j]))]
         places = mine + yours
@@ -176,6 +170,21 @@ def _crossing_parts(
         if i == j:
             found |= {(i, k) for _, k in mine if self_crossings(lines[i][k])}
     return sorted(found)
+
+
+def _new_crossings(
+    contours: Sequence[Contour], lines: Sequence[FloatArray]
+) -> set[tuple[int, int]]:
+    """Pairs of contours whose lines cross but not their data; (i, i) of one that crosses itself."""
+    data = [contour.polyline for contour in contours]
+    pairs = {
+        pair for pair in crossing_pairs(lines) if not crossing_pairs([data[pair[0]], data[pair[1]]])
+    }
+    return pairs | {
+        (index, index)
+        for index, line in enumerate(lines)
+        if self_crossings(line) > self_crossings(data[index])
+    }
 
 
 def _windows(found: Sequence[int], beside: int, count: int) -> list[tuple[int, int]]:
