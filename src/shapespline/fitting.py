@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 
 Knots = Literal["balanced", "dominant", "uniform"]
 # So many points are fitted within a tolerance in passes over chunks, where nothing asks for more.
-MANY_POINTS = 200_000
+MANY_POINTS = 50_000
 # What least squares of a given size starts from.
 STARTS = {"balanced": balanced_start, "dominant": dominant_start, "uniform": uniform_start}
 
