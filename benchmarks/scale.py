@@ -123,6 +123,7 @@ def _fill(path: Path, n: int) -> None:
     for begin in range(0, n, 1 << 20):
         end = min(n, begin + (1 << 20))
         mapped[begin:end] = wiggly(n, begin, end)
+    mapped.flush()  # the file is there before the time begins
 
 
 def sizes(most: int) -> dict[str, list[Run]]:

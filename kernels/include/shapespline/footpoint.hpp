@@ -52,37 +52,36 @@ class CurveSearch {
                     improve(queries[run.begin + k], i, run.nearest[k]);
                 found(run.begin + k, run.nearest[k]);
             }
+            run.go_on_at(run.nearest[run.n - 1]);
             run.n = 0;
         };
-        double ahead = kUnknown, before = kUnknown;
         for (std::size_t j = 0; j < queries.size(); ++j) {
-            Nearest best = nearest_on_piece(queries[j], run.piece, ahead);
+            Nearest best = nearest_on_piece(queries[j], run.piece, run.ahead);
             if (best.inside) {
-                ahead = before == kUnknown ? best.place : 2.0 * best.place - before;
-                before = best.place;
                 if (run.n == 0) run.start(j);
                 run.add(queries[j], best);
                 if (run.n == kLongestRun) finish();
                 continue;
             }
             finish();
-            tree_.search(queries[j], best.distance_sq, run.piece,
+            tree_.search(queries[j], best.distance_sq, best.piece,
                          [&](std::size_t i) { improve(queries[j], i, best); });
             found(j, best);
-            run.piece = best.piece;
-            ahead = before = best.place;
+            run.go_on_at(best);
         }
         finish();
     }
 
   private:
     static constexpr std::size_t kLongestRun = 16;
+    static constexpr double kUnknown = -2.0;
 
     // Consecutive queries with their feet inside one piece.
     struct Run {
         std::size_t piece = 0, begin = 0, n = 0;
         Box box;
         double farthest_sq = 0.0;
+        double before = kUnknown, ahead = kUnknown;  // places of the last foot and of the next one
         std::array<Nearest, kLongestRun> nearest;
 
         void start(std::size_t j) {
@@ -94,6 +93,14 @@ class CurveSearch {
             box.include(q);
             farthest_sq = std::max(farthest_sq, best.distance_sq);
             nearest[n++] = best;
+            ahead = before == kUnknown ? best.place : 2.0 * best.place - before;
+            before = best.place;
+        }
+        // A foot inside a piece may be far away: the piece that was found to be nearer is the next.
+        void go_on_at(const Nearest &last) {
+            if (last.piece == piece && last.place == before) return;
+            piece = last.piece;
+            before = ahead = last.place;
         }
     };
 
@@ -107,7 +114,6 @@ class CurveSearch {
     // Newton's method squares its error: what is left after a step so small is nothing to the
     // distance, which it changes by its square again.
     static constexpr double kLastStep = 1e-7;
-    static constexpr double kUnknown = -2.0;
 
     // Pieces whose control polygon is at most 2 % longer than its chord: on them the squared
     // distance to a point has one minimum, unless the point is near the centre of curvature, where
