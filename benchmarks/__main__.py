@@ -1,4 +1,4 @@
-"""``make bench``: every benchmark, one after the other; some ten minutes."""
+"""``make bench``: every benchmark, one after the other; some fifteen minutes."""
 
 from benchmarks import (
     drawings,
@@ -8,6 +8,7 @@ from benchmarks import (
     ordering,
     peers_table,
     quality,
+    scale,
     traced,
 )
 
@@ -19,3 +20,4 @@ methods.main()
 traced.table(traced.TOLERANCE)
 ordering.table(None)
 drawings.main()
+scale.everything(7)

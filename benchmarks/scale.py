@@ -340,6 +340,18 @@ def draw(found: dict[str, list[Run]], coasts: list[tuple[str, int, float]], fold
     figure.savefig(folder / "performance.png", dpi=110)
 
 
+def everything(most: int) -> tuple[dict[str, list[Run]], list[tuple[str, int, float]]]:
+    """Print all tables; what the plots show."""
+    found = sizes(most)
+    tolerances()
+    noisy()
+    passes()
+    coasts = coastlines()
+    small_outlines()
+    memory(most)
+    return found, coasts
+
+
 def main() -> None:
     """Read the arguments, measure, print."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
@@ -350,13 +362,7 @@ def main() -> None:
     if chosen.child:
         child(chosen.child[0], int(chosen.child[1]))
         return
-    found = sizes(chosen.most)
-    tolerances()
-    noisy()
-    passes()
-    coasts = coastlines()
-    small_outlines()
-    memory(chosen.most)
+    found, coasts = everything(chosen.most)
     if chosen.figures is not None:
         draw(found, coasts, chosen.figures)
 
