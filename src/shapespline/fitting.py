@@ -42,6 +42,7 @@ from shapespline.tolerance import (
     fit_within,
     tolerance_length,
 )
+from shapespline.uncrossing import uncrossed
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
     from shapespline.drawing import Fit
     from shapespline.optimization import Callback
     from shapespline.typing import ArrayLike, IntArray
+    from shapespline.uncrossing import Tangents
 
 Knots = Literal["balanced", "dominant", "uniform"]
 # So many points are fitted within a tolerance in passes over chunks, where nothing asks for more.
@@ -237,7 +239,17 @@ def fit_curve(
             found = fit_all_in_passes(contour, length, degree, corners, form, effort, watch)
         if found is not None:
             return found
-        return fit_within(contour, length, degree, corners, form, held, symmetric, effort, watch)
+        found = fit_within(contour, length, degree, corners, form, held, symmetric, effort, watch)
+        if form == "spline" or held.anything or symmetric or watch.ended_as:
+            return found
+
+        def closer(part: Contour, within: float, tangents: Tangents) -> Fit:
+            free = isinstance(corners, str) and corners == "free"
+            ends = checked_held(part, "fixed", None if free else tangents, None)
+            among = corners if corners is None or isinstance(corners, str) else "auto"
+            return fit_within(part, within, degree, among, form, ends, False, effort, watch)
+
+        return uncrossed([contour], [found], closer)[0]
     if end_tangents is not None or through is not None or symmetric:
         raise InvalidInputError(
             "end_tangents, through and symmetric act within a tolerance: give one"

@@ -36,6 +36,8 @@ ROUNDS, CLOSER = 5, 0.25
 # the piece before it and in tolerances. Joints that turn less than this, radians, are smooth.
 ALONG, TOLERANCES, SMOOTH = 0.3, 4.0, np.radians(1.0)
 
+CROSSES = "it crosses a curve where the data do not"
+
 Tangents = tuple["FloatArray | None", "FloatArray | None"]
 
 
@@ -85,7 +87,7 @@ def uncrossed(
     for owner in changed:
         fit = fits[owner]
         pieces = tuple(part.piece for part in parts[owner])
-        result[owner] = verified_fit(
+        again = verified_fit(
             fit.contour,
             joined(pieces, fit.degree),
             tolerance=fit.tolerance,
@@ -93,17 +95,20 @@ def uncrossed(
             sections=pieces,
             history=fit.history,
         )
-    return [
-        _told(fit) if any(owner == index for owner, _ in crossing) else fit
-        for index, fit in enumerate(result)
-    ]
+        # Where data overlap a piece may have been given the points of another: the promise comes
+        # first.
+        broken = fit.kept and not again.kept
+        result[owner] = fit if broken else again
+        if broken or any(owner == other for other, _ in crossing):
+            result[owner] = _told(result[owner])
+    return result
 
 
 def _told(fit: Fit) -> Fit:
-    status = fit.status
-    return replace(
-        fit, status=status.saying(f"{status.value}; it crosses a curve where the data do not")
-    )
+    sentence = fit.status.value
+    if sentence.endswith(CROSSES):
+        return fit
+    return replace(fit, status=fit.status.saying(f"{sentence}; {CROSSES}"))
 
 
 def _pieces(fit: Fit) -> tuple[Piece, ...]:
