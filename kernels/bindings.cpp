@@ -238,7 +238,8 @@ NB_MODULE(_kernels, m) {
         "fit_sections",
         [](In2 points, bool closed, InIndices joint, InIndices forced, InIndices gentle,
            std::int64_t stride, double resolution, double tolerance, int largest_degree,
-           bool smooth, bool ends_fixed, double least_corner, int passes, int widest, nb::object ask,
+           bool smooth, bool ends_fixed, double least_corner, int passes, int widest,
+           nb::object ask,
            std::optional<In2> observed, double noise) {
             ss::Interruption asking = interruption(ask);
             nb::gil_scoped_release release;
@@ -260,16 +261,19 @@ NB_MODULE(_kernels, m) {
             return std::make_tuple(degrees, counts, knots, coordinates);
         },
         "points"_a.noconvert(), "closed"_a, "joint"_a.noconvert(),
-        "forced"_a.noconvert(), "gentle"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a, "largest_degree"_a,
+        "forced"_a.noconvert(), "gentle"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a,
+        "largest_degree"_a,
         "smooth"_a, "ends_fixed"_a, "least_corner"_a, "passes"_a, "widest"_a, "ask"_a,
         "observed"_a.none().noconvert() = nb::none(), "noise"_a = 0.0);
     // Knot removal: a search is a few calls, each a whole stage; see removal.hpp.
     nb::class_<ss::removal::RemovalSearch>(m, "RemovalSearch")
         .def(
             "__init__",
-            [](ss::removal::RemovalSearch *self, In2 data, bool closed, int degree, double tolerance,
+            [](ss::removal::RemovalSearch *self, In2 data, bool closed, int degree,
+               double tolerance,
                bool keep_rule, bool start_from_polyline, double gap_ratio, double speed_ratio,
-               double least_gap, double largest_gap, double enough, double accept, int samples_per_span,
+               double least_gap, double largest_gap, double enough, double accept,
+               int samples_per_span,
                double sample_weight, double hope, nb::object ask) {
                 ss::Interruption asking = interruption(ask);
                 nb::gil_scoped_release release;

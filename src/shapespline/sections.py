@@ -171,24 +171,22 @@ def fit_pieces(
         if watch.ended_as or results[-1].kept:
             break
     found = results[-1] if results else None
-    followed = found is not None and found.kept
-    rough = ROUGH_PART * len(contour)
-    if isinstance(corners, str):  # else the corners are known, and lines would make others
-        n_chords = _n_chords(work)
-        rough = min(rough, n_chords)
-        if found and followed and found.n_stored_points <= CHORDS_PART * n_chords:
-            return found
-    elif found and followed and found.n_stored_points <= rough:
+    count = found.n_stored_points if found is not None and found.kept else np.inf
+    # Where the caller knows the corners lines would make others.
+    named = not isinstance(corners, str)
+    n_chords = np.inf if named else _n_chords(work)
+    rough = min(ROUGH_PART * len(contour), n_chords)
+    if found is not None and count <= (rough if named else CHORDS_PART * n_chords):
         return found
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
     straight = work._replace(held=work.held._replace(tangents=(None, None)))
     lines = SectionSearch(straight, 1, False, False, Watch()).run(
         AIMS[0] * work.tolerance, SEARCHES["fast"][0]._replace(stride=1)
     )
-    if found and followed and found.n_stored_points <= rough:
-        fewer = _size(lines) + (not contour.closed) < found.n_stored_points
-        if not (fewer and _drawn_with_lines(lines, contour.closed)):
-            return found
+    fewer = _size(lines) + (not contour.closed) < count
+    drawn = fewer and _drawn_with_lines(lines, contour.closed)
+    if found is not None and count <= rough and not drawn:
+        return found
     results.append(verified_pieces(work.frame, lines, contour, tolerance, degree, held))
     if not any(result.kept for result in results):
         every = _through_all(whole.frame.contour)

@@ -150,7 +150,8 @@ class MinimaxFit {
             // Out of reach: at some times the present rate the iterations left do not suffice.
             const int left = stage.iterations - iteration - 1;
             const double rate = decrease / (2.0 * stage.half_power);
-            if (stage.gaps_free && std::log(best_ / limits_->enough) > limits_->hope * rate * left) return;
+            const double to_go = std::log(best_ / limits_->enough);
+            if (stage.gaps_free && to_go > limits_->hope * rate * left) return;
         }
     }
 
@@ -235,9 +236,11 @@ class MinimaxFit {
         const int period = window.n_free_gaps;
         for (int k = 0; k < count; ++k) {
             if (window.gap_slot[k] == kNotFree) continue;
-            if (k < window.first_sampled && k + period < count && window.gap_slot[k + period] == window.gap_slot[k])
+            if (k < window.first_sampled && k + period < count &&
+                window.gap_slot[k + period] == window.gap_slot[k])
                 gaps[k] = gaps[k + period];
-            else if (k > window.last_sampled && k >= period && window.gap_slot[k - period] == window.gap_slot[k])
+            else if (k > window.last_sampled && k >= period &&
+                     window.gap_slot[k - period] == window.gap_slot[k])
                 gaps[k] = gaps[k - period];
         }
     }

@@ -102,8 +102,8 @@ struct OutlineSearch {
         return best;
     }
 
-    // A corner is a node of every path, a pinned one too. Without them some node lies in any window that one
-    // section can span: the shortest such window is tried, at some places.
+    // A corner is a node of every path, a pinned one too. Without them some node lies in any window
+    // that one section can span: the shortest such window is tried, at some places.
     std::vector<std::size_t> starts(const std::vector<Reach> &reaches) const {
         for (std::size_t k = 0; k < candidates.n_starts; ++k)
             if (nodes[k].barred()) return {k};
@@ -162,8 +162,8 @@ struct OutlineSearch {
 class LaidOutOutline {
   public:
     // What is known about each point: the sum of 1 for a corner that is kept, 2 for a node that
-    // stays there, 4 and 8 for a joint that must be tangent to a stub before and behind it; 1 for a point that must be a candidate node;
-    // 1 for one where the data hardly turn.
+    // stays there, 4 and 8 for a joint that must be tangent to a stub before and behind it; 1 for a
+    // point that must be a candidate node; 1 for one where the data hardly turn.
     struct Marks {
         std::span<const Index> joint, forced, gentle;
     };

@@ -89,8 +89,8 @@ double median_speed(const StateCurves<Degree> &all) {
 }
 
 // The slowest speed, where it matters exactly: the least sample of a span is refined unless it
-// is many times `critical`, for samples alone are not enough beside a cusp. The neighbourhood of knots of multiplicity >=
-// degree, where the curve may stand still, is left out.
+// is many times `critical`, for samples alone are not enough beside a cusp. The neighbourhood of
+// knots of multiplicity >= degree, where the curve may stand still, is left out.
 template <int Degree>
 double slowest_speed(const StateCurves<Degree> &all, double critical) {
     constexpr double kSuspect = 10.0;
@@ -155,8 +155,8 @@ std::vector<Chord> flattened(const StateCurves<Degree> &all, double flatness, co
     return chords;
 }
 
-// Number of proper crossings among segments: a sweep over them sorted by x. Neighbours that share an
-// end, to rounding, do not cross.
+// Number of proper crossings among segments: a sweep over them sorted by x. Neighbours that share
+// an end, to rounding, do not cross.
 inline int count_crossings(std::span<const Chord> chords) {
     const int n = static_cast<int>(chords.size());
     struct Item {

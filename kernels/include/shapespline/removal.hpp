@@ -68,8 +68,9 @@ class KnotRemoval {
     }
 
     // Removes the cheapest knot first. A rank is renewed when the knot comes up after a neighbour
-    // went, unless its removal was feasible at that; a knot whose removal failed comes back when a neighbour has gone. Returns the number
-    // of knots that were removed; at most `most` trials are made.
+    // went, unless its removal was feasible at that; a knot whose removal failed comes back when a
+    // neighbour has gone. Returns the number of knots that were removed; at most `most` trials are
+    // made.
     int remove_cheapest(const Effort &rank, const Effort &effort, long most,
                         Interruption &interruption) {
         const long before = counts_.accepted;
@@ -167,8 +168,8 @@ class KnotRemoval {
     static constexpr double kTryStale = 0.97;
     static constexpr double kFlatness = 0.01;  // of the tolerance, for crossings
 
-    // Where the first knots fall decides whether sharp corners are met; another number of them often
-    // cures what more insertions cannot.
+    // Where the first knots fall decides whether sharp corners are met; another number of them
+    // often cures what more insertions cannot.
     bool start_by_insertion(Interruption &interruption) {
         for (const int count : {24, 37, 56})
             if (start_by_insertion(std::max(count, 3 * Degree + 4), interruption)) return true;
@@ -292,7 +293,8 @@ class KnotRemoval {
     bool keeps_rule() {
         const double least = std::min(settings_.rule.speed_ratio, slowest_);
         const int first = window_.origin + window_.first_sampled;
-        const StateCurves<Degree> part(candidate_, first, window_.origin + window_.last_sampled + 1);
+        const int last = window_.origin + window_.last_sampled;
+        const StateCurves<Degree> part(candidate_, first, last + 1);
         // The median changes little in one removal; what fails clearly needs no second look.
         if (slowest_speed(part, settings_.rule.speed_ratio * median_) < 0.8 * least * median_) {
             ++counts_.missed_speed;

@@ -26,7 +26,7 @@ using Index = std::int64_t;
 struct Joint {
     bool corner = false;    // a corner that is kept
     bool pinned = false;    // the node stays where its datum is
-    bool required = false;  // the joint must be tangent to a straight stub, that before the node ...
+    bool required = false;  // the joint must be tangent to a straight stub, before the node ...
     bool at_end = false;    // ... or that behind it
     bool tangent = false;   // the section starts in the direction in which its neighbour ends
 

@@ -1,5 +1,5 @@
-// Least squares on sections whose kinds and knots are given: the nodes and control points nearest to
-// noisy data, joints tangent where they were. Knots that were free would follow the noise.
+// Least squares on sections whose kinds and knots are given: the nodes and control points nearest
+// to noisy data, joints tangent where they were. Knots that were free would follow the noise.
 #pragma once
 
 #include <algorithm>

@@ -109,7 +109,8 @@ struct SpanCurve {
             for (int q = 0; q <= Degree; ++q) {
                 double sum = 0.0;
                 for (int i = 0; i <= q; ++i)
-                    sum += ((q - i) % 2 ? -1.0 : 1.0) * binomial(j, i) * binomial(Degree - j, q - i);
+                    sum += ((q - i) % 2 ? -1.0 : 1.0) * binomial(j, i) *
+                           binomial(Degree - j, q - i);
                 table[j][q] = sum / binomial(Degree, q);
             }
         return table;

@@ -68,7 +68,8 @@ SplineState<Degree> chord_length_spline(const ArcPolyline &data, std::span<const
     return state;
 }
 
-// A polyline within a distance of the data as a spline: its vertices are knots of full multiplicity.
+// A polyline within a distance of the data as a spline: its vertices are knots of full
+// multiplicity.
 template <int Degree>
 SplineState<Degree> polyline_spline(const ArcPolyline &data, double distance) {
     std::vector<int> at;

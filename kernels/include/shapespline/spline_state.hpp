@@ -145,7 +145,8 @@ void insert_knot(SplineState<Degree> &state, int k, double u, int id) {
         bool after = offset > 0;
         if (offset == 0) {
             after = place >= u;
-            place = after ? 2.0 * (place - u) / (1.0 - u) - 1.0 : 2.0 * (place + 1.0) / (u + 1.0) - 1.0;
+            place = after ? 2.0 * (place - u) / (1.0 - u) - 1.0
+                          : 2.0 * (place + 1.0) / (u + 1.0) - 1.0;
         }
         span += turn + (after ? 1 : 0);
     }

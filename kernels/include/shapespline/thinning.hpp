@@ -70,7 +70,8 @@ inline std::vector<std::int64_t> thinned(std::span<const Vec2> points, double di
         ChordCone cone(distance);
         double way = 0.0;
         // Looks on past vertices that cannot end the chord, but not far: the pass stays linear.
-        for (std::int64_t j = from + 1; j < n && j <= from + 2 * (reached - from) + kPatience; ++j) {
+        for (std::int64_t j = from + 1; j < n && j <= from + 2 * (reached - from) + kPatience;
+             ++j) {
             way += norm(points[j] - points[j - 1]);
             const Vec2 v = points[j] - points[from];
             if (cone.empty() || (way > longest && j > from + 1)) break;

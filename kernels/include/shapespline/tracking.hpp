@@ -32,8 +32,9 @@ struct PolylineFoot {
     int segment;
 };
 
-// Nearest point of the segments around one of them; walks until some in a row are farther. Where the
-// foot on the first one is inside and nearer than `near`, no other is asked: an upper bound does.
+// Nearest point of the segments around one of them; walks until some in a row are farther. Where
+// the foot on the first one is inside and nearer than `near`, no other is asked: an upper bound
+// does.
 inline PolylineFoot nearest_around(Vec2 p, std::span<const Segment> segments, int start,
                                    int patience, double near_sq) {
     const auto foot_on = [&](int i, bool &inside) {
@@ -144,8 +145,8 @@ class Tracking {
         return true;
     }
 
-    // Whether the curve comes within a distance of data point j: where it is placed, at the foot that
-    // Newton's method finds from there, or at one found from the nearest of many places around
+    // Whether the curve comes within a distance of data point j: where it is placed, at the foot
+    // that Newton's method finds from there, or at one found from the nearest of many places around
     // (beside a sharp turn Newton's method may stop short).
     static bool reaches(const Window<Degree> &window, LocalCurve &curve, const Curves &curves,
                         int j, double distance) {

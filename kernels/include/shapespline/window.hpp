@@ -21,7 +21,8 @@ struct LocalCurve {
 };
 
 inline constexpr int kNotFree = -1;
-// A segment of the polyline with its unit normal; its inverse squared length is zero if it has none.
+// A segment of the polyline with its unit normal; its inverse squared length is zero if it has
+// none.
 struct Segment {
     Vec2 begin, along, normal;
     double inverse_length_sq;
