@@ -188,3 +188,13 @@ def test_a_promise_is_not_given_up_for_a_crossing():
     found = two_sided(fit.curve, points, closed=False, step=0.05)
     assert fit.kept
     assert found.larger <= 0.5
+
+
+def test_what_was_estimated_does_not_follow_the_noise_to_come_apart():
+    t = np.linspace(0, 1, 240)
+    hook = np.column_stack([60 * t, 20 * np.sin(6 * t)])
+    noisy = np.round(hook + np.random.default_rng(2).normal(0, 0.4, hook.shape))
+    contour = ss.Contour.silently(noisy, closed=False)
+    alone = ss.fit_curve(contour)
+    (fit,) = ss.fit_shape(ss.Shape([contour]))
+    assert_array_equal(fit.control_points, alone.control_points)

@@ -36,6 +36,8 @@ ROUNDS, CLOSER = 5, 0.25
 # the piece before it and in tolerances. Joints that turn less than this, radians, are smooth.
 ALONG, TOLERANCES, SMOOTH = 0.3, 4.0, np.radians(1.0)
 
+# Searches that follow the points. What was estimated from noisy ones would follow their noise.
+FOLLOWING = ("sections", "removal")
 CROSSES = "it crosses a curve where the data do not"
 
 Tangents = tuple["FloatArray | None", "FloatArray | None"]
@@ -74,16 +76,18 @@ def uncrossed(
     crossing: list[tuple[int, int]] = []
     for turn in range(ROUNDS + 1):
         crossing = _crossing_parts(contours, parts)
-        if turn == ROUNDS or not crossing:
+        owners = {owner for owner, _ in crossing if fits[owner].method in FOLLOWING}
+        if turn == ROUNDS or not owners:
             break
-        for owner in {owner for owner, _ in crossing}:
+        for owner in owners:
             row, closed = parts[owner], fits[owner].closed
             found = [at for other, at in crossing if other == owner]
             # Where that was not enough a node is to blame, which goes with both of its pieces.
             for begin, end in reversed(_windows(found, int(turn > 0), len(row))):
                 row[begin:end] = _closer(row, begin, end, closed, refit)
             changed.add(owner)
-    result = list(fits)
+    still = {owner for owner, _ in crossing}
+    result = [_told(fit) if i in still else fit for i, fit in enumerate(fits)]
     for owner in changed:
         fit = fits[owner]
         pieces = tuple(part.piece for part in parts[owner])
@@ -99,7 +103,7 @@ def uncrossed(
         # first.
         broken = fit.kept and not again.kept
         result[owner] = fit if broken else again
-        if broken or any(owner == other for other, _ in crossing):
+        if broken or owner in still:
             result[owner] = _told(result[owner])
     return result
 
