@@ -162,7 +162,7 @@ def test_it_can_be_written_and_read_again(tmp_path):
         (np.zeros((2, 5)), {}, r"shape \(n, 2\), got \(2, 5\)"),
         (np.zeros((5, 2), dtype=complex), {}, "real numbers, got dtype complex"),
         (np.zeros((0, 2)), {}, "at least 2 distinct points, got none"),
-        (np.zeros((9, 2)), {}, "distinct points"),
+        (np.zeros((9, 2)), {}, r"at least 2 distinct points, got 1 \(of 9 given\)"),
         (np.array([(0.0, 0), (1, np.nan), (2, 0)]), {}, r"finite, got \[1.0, nan\] at index 1"),
         (square(400), {"tolerance": -1.0}, "tolerance must be a positive length"),
         (square(400), {"tolerance": "wide"}, "tolerance must be a positive length"),

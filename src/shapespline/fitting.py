@@ -237,7 +237,7 @@ def fit_curve(
         found = None
         if len(contour) >= MANY_POINTS and not (held.anything or symmetric):
             found = fit_all_in_passes(contour, length, degree, corners, form, effort, watch)
-        if found is not None:
+        if found is not None and (found.kept or watch.ended_as):
             return found
         found = fit_within(contour, length, degree, corners, form, held, symmetric, effort, watch)
         if form == "spline" or held.anything or symmetric or watch.ended_as:

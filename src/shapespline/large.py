@@ -20,7 +20,7 @@ from shapespline.contour import Contour
 from shapespline.corners import find_corners
 from shapespline.distance import CentredCurve, Distances, reverse_distance, rounding
 from shapespline.drawing import Fit
-from shapespline.errors import InvalidInputError
+from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.frame import LONGEST_CHORD, WorkingFrame, canonical_reading, reversed_curve
 from shapespline.held import Held
 from shapespline.joining import backwards
@@ -119,6 +119,10 @@ def fit_large(
 
     seen = passes.look()
     closed = seen.ends_meet if closed is None else bool(closed)
+    if (seen.low == seen.high).all():
+        raise DegenerateContourError(
+            f"points must hold at least 2 distinct points, got 1 (of {stream.n_points} given)"
+        )
     box = Contour.silently(np.array([seen.low, seen.high]), closed=False)
     length = tolerance_length(tolerance, box)
     standing = StandIn.of(passes, seen, closed, length, LONGEST_CHORD * box.box_diagonal)
