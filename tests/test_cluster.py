@@ -35,24 +35,34 @@ def cluster():
         yield running
 
 
+class KillOneWorker:
+    """A progress callback that kills a worker once, and sees that another took its place."""
+
+    def __init__(self, client):
+        self._client, self._killed = client, threading.Event()
+        self._before = self._workers()
+
+    def __call__(self, done, total):
+        if not self._killed.is_set():
+            self._killed.set()
+            os.kill(next(iter(self._workers())), signal.SIGKILL)
+
+    def check(self):
+        self._client.wait_for_workers(2, timeout=60)
+        assert self._killed.is_set()
+        assert self._workers() != self._before
+
+    def _workers(self):
+        return set(self._client.run(os.getpid).values())
+
+
 def test_a_killed_worker_loses_nothing(cluster):
     given = [*outlines(1200), np.zeros((2, 2))]
     alone = ss.fit_many(given, n_control_points=9)
-    killed = threading.Event()
-
-    def kill_one(done, total):
-        if not killed.is_set():
-            killed.set()
-            (victim, *_) = client.run(os.getpid).values()
-            os.kill(victim, signal.SIGKILL)
-
     with distributed.Client(cluster) as client:
-        before = set(client.run(os.getpid).values())
+        kill_one = KillOneWorker(client)
         together = ss.fit_many(given, executor=client, progress=kill_one, n_control_points=9)
-        client.wait_for_workers(2, timeout=60)
-        after = set(client.run(os.getpid).values())
-    assert killed.is_set()
-    assert before != after  # the killed one was replaced
+        kill_one.check()
     assert sorted(together.failures) == sorted(alone.failures) == [1200]
     for mine, theirs in zip(alone.fits[:1200], together.fits[:1200], strict=True):
         assert_array_equal(mine.control_points, theirs.control_points)
@@ -64,21 +74,10 @@ def test_one_outline_whose_blocks_lie_on_the_cluster(cluster):
     r = 3 + dask_array.cos(5 * t)
     blocks = dask_array.stack([r * dask_array.cos(t), r * dask_array.sin(t)], axis=1)
     alone = ss.fit_large(blocks.compute(), tolerance=0.005)
-    killed = threading.Event()
-
-    def kill_one(done, total):
-        if not killed.is_set():
-            killed.set()
-            (victim, *_) = client.run(os.getpid).values()
-            os.kill(victim, signal.SIGKILL)
-
     with distributed.Client(cluster) as client:
-        before = set(client.run(os.getpid).values())
+        kill_one = KillOneWorker(client)
         together = ss.fit_large(blocks, tolerance=0.005, progress=kill_one)
-        client.wait_for_workers(2, timeout=60)
-        after = set(client.run(os.getpid).values())
-    assert killed.is_set()
-    assert before != after
+        kill_one.check()
     assert together.kept
     assert_array_equal(together.control_points, alone.control_points)
     assert together.max_distance == alone.max_distance
