@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import frexp, ldexp
+from math import frexp, fsum, ldexp
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -14,11 +14,13 @@ from shapespline.curve import BSplineCurve
 from shapespline.joining import backwards
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.drawing import Piece
     from shapespline.typing import FloatArray, IntArray
 
 # What a search may leave aside: points this part of the tolerance from the polyline without them,
-# unless its chords grow longer than this part of the box diagonal. It must be worth it: of so few
+# unless its chords grow longer than this part of the extent. It must be worth it: of so few
 # points, or if more than this part of them stay, none is left aside.
 THINNING = 0.01
 LONGEST_CHORD = 0.005
@@ -91,7 +93,7 @@ class WorkingFrame(NamedTuple):
         marks = np.zeros(len(work.polyline), dtype=np.int64)
         marks[marked] = 1
         kept = np.array(
-            _kernels.thinned(work.polyline, slack, LONGEST_CHORD * work.box_diagonal, marks),
+            _kernels.thinned(work.polyline, slack, LONGEST_CHORD * self.extent, marks),
             dtype=np.int64,
         )
         if work.closed:
@@ -117,6 +119,12 @@ class WorkingFrame(NamedTuple):
         moved = (contour.points - self.middle) * self.scale
         accuracy = None if contour.accuracy is None else contour.accuracy * self.scale
         return Contour.trusted(moved, contour.closed, accuracy)
+
+    @property
+    def extent(self) -> float:
+        """Twice the largest distance from the points' mean: a size that no turn changes."""
+        away = self.contour.points - self.contour.points.mean(axis=0)
+        return 2.0 * float(np.sqrt((away**2).sum(axis=1).max()))
 
     @property
     def place(self) -> IntArray:
@@ -152,31 +160,41 @@ def reversed_curve(curve: BSplineCurve) -> BSplineCurve:
 def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
     """First index and step, 1 or -1, of an order that depends on the geometry only.
 
-    Of all ways to read the points the one whose coordinates come first in the dictionary: closed
-    outlines start at a point with the least x, then y, open ones at an end.
+    Of all ways to read the points, closed outlines from anywhere, open ones from an end, the one
+    whose distances from the mean come last in the dictionary; of equals its coordinates decide.
+    So a turned or mirrored outline is read like the outline, but for rounding.
     """
-    ends = [0, len(points) - 1]
-    if closed:
-        leftmost = np.flatnonzero(points[:, 0] == points[:, 0].min())
-        least = points[leftmost, 1].min()
-        ends = leftmost[points[leftmost, 1] == least].tolist()
+    away = _from_mean(points)
+    ends = np.flatnonzero(away == away.max()).tolist() if closed else [0, len(points) - 1]
     readings = [(start, 1) for start in (ends if closed else ends[:1])]
     readings += [(start, -1) for start in (ends if closed else ends[1:])]
     best = readings[0]
     for reading in readings[1:]:
-        if _comes_first(points, reading, best):
+        if _comes_last((away[:, None], points), reading, best):
             best = reading
     return best
 
 
-def _comes_first(points: FloatArray, a: tuple[int, int], b: tuple[int, int]) -> bool:
-    """Whether one way to read the points, from a start by steps, stands before another."""
-    n, begin, end = len(points), 0, 16
-    while begin < n:
-        index = np.arange(begin, min(end, n))
-        mine, yours = (points[(start + step * index) % n].ravel() for start, step in (a, b))
-        differ = np.flatnonzero(mine != yours)
-        if len(differ):
-            return bool(mine[differ[0]] < yours[differ[0]])
-        begin, end = end, 2 * end
+def _from_mean(points: FloatArray) -> FloatArray:
+    """Squared distances from the mean, to the last bit the same whatever the order of the points.
+
+    Relative to the largest coordinate, of which the square is always a number.
+    """
+    scale = ldexp(1.0, -frexp(float(np.abs(points).max()))[1])
+    scaled = points * scale
+    mean = np.array([fsum(x) for x in scaled.T]) / len(points)
+    return ((scaled - mean) ** 2).sum(axis=1)
+
+
+def _comes_last(keys: Sequence[FloatArray], a: tuple[int, int], b: tuple[int, int]) -> bool:
+    """Whether one way to read rows, from a start by steps, stands behind another."""
+    for rows in keys:
+        n, begin, end = len(rows), 0, 16
+        while begin < n:
+            index = np.arange(begin, min(end, n))
+            mine, yours = (rows[(start + step * index) % n].ravel() for start, step in (a, b))
+            differ = np.flatnonzero(mine != yours)
+            if len(differ):
+                return bool(mine[differ[0]] > yours[differ[0]])
+            begin, end = end, 2 * end
     return False

@@ -25,8 +25,8 @@ from shapespline.progress import Watch
 if TYPE_CHECKING:
     from shapespline.contour import Contour
 
-# Box diagonal that the gap limits refer to.
-DIAGONAL = 100.0
+# Extent of the data that the gap limits refer to.
+EXTENT = 100.0
 # Product rule: largest over smallest knot gap, slowest over median speed.
 GAP_RATIO, SPEED_RATIO = 1000.0, 0.05
 # Gaps under the rule: corners need some as small as the tolerance, long straight runs large ones.
@@ -239,7 +239,7 @@ def _search(
 ) -> _kernels.RemovalSearch:
     """The stages of one search, as many as the watch allows."""
     scaled = tolerance * frame.scale - frame.slack
-    unit = frame.contour.box_diagonal / DIAGONAL
+    unit = frame.extent / EXTENT
     low, high = (unit * gap for gap in LEAST_GAP)
     least = min(max(LEAST_GAP_TOLERANCES * scaled, low), high)
     least_gap, largest_gap = (

@@ -82,7 +82,7 @@ class ChainSolver {
 
   private:
     static constexpr int kTrials = 6, kNewtonSteps = 2;
-    static constexpr double kLeastDamping = 1e-6, kRaise = 8.0, kLower = 6.0;
+    static constexpr double kLeastScale = 1e-10, kLeastDamping = 1e-6, kRaise = 8.0, kLower = 6.0;
     // No knot gap shrinks by more than this part in a step, nor below this part of the mean gap.
     static constexpr double kLargestShrink = 0.6, kLeastGap = 0.02;
     static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -119,6 +119,10 @@ class ChainSolver {
                 unknown[2 * n - 1] = next++;
             }
         }
+        is_abscissa_.assign(next, false);
+        for (std::size_t s = 0; s < model_.size(); ++s)
+            for (std::size_t l = 0; l < model_.section(shape_only_, s).n_points; ++l)
+                if (unknown_[s][2 * l] != kNone) is_abscissa_[unknown_[s][2 * l]] = true;
         std::vector<std::size_t> first_column(next);
         for (std::size_t i = 0; i < next; ++i) first_column[i] = i;
         for (std::size_t s = 0; s < model_.size(); ++s) couple(s, first_column);
@@ -130,6 +134,8 @@ class ChainSolver {
         }
         empty_ = EnvelopeMatrix(std::move(first_column));
         step_.resize(next);
+        scale_.resize(next);
+        least_.resize(next);
         gradient_.resize(next);
     }
 
@@ -193,9 +199,7 @@ class ChainSolver {
         }
         for (std::size_t i = 0; i <= model_.size(); ++i) add_node(state, weights, i);
         for (const std::size_t i : model_.tangent_joints()) add_joint(state, weights, i);
-        largest_ = 0.0;
-        for (std::size_t i = 0; i < gradient_.size(); ++i)
-            largest_ = std::max(largest_, matrix_.at(i, i));
+        set_scales();
     }
 
     void add_node(const ChainState &state, const ChainWeights &weights, std::size_t i) {
@@ -224,11 +228,31 @@ class ChainSolver {
         }
     }
 
-    // The damped step, -(A + damping diag A)^-1 g.
+    // What unknowns are damped in proportion to: the diagonal, one value for both coordinates of a
+    // point, so that no step depends on the axes, and in parts of the largest among points and
+    // among knots, so that none depends on the unit of length.
+    void set_scales() {
+        double points = 0.0, knots = 0.0;
+        for (std::size_t i = 0; i < scale_.size(); ++i) {
+            scale_[i] = matrix_.at(i, i);
+            if (is_abscissa_[i]) {
+                scale_[i] = scale_[i + 1] = 0.5 * (scale_[i] + matrix_.at(i + 1, i + 1));
+                points = std::max(points, scale_[i++]);
+            } else {
+                knots = std::max(knots, scale_[i]);
+            }
+        }
+        for (std::size_t i = 0; i < scale_.size(); ++i) {
+            least_[i] = kLeastScale * (is_abscissa_[i] ? points : knots);
+            if (is_abscissa_[i]) ++i, least_[i] = least_[i - 1];
+        }
+    }
+
+    // The damped step, -(A + damping S)^-1 g, S the scale of the unknowns.
     bool solve(double damping) {
         factor_ = matrix_;
         for (std::size_t i = 0; i < gradient_.size(); ++i) {
-            factor_.at(i, i) += damping * matrix_.at(i, i) + 1e-10 * largest_;
+            factor_.at(i, i) += damping * scale_[i] + least_[i];
             step_[i] = -gradient_[i];
         }
         if (!factor_.factorize()) return false;
@@ -277,9 +301,10 @@ class ChainSolver {
     SectionNormal normal_;
     std::vector<std::vector<std::size_t>> unknown_;
     EnvelopeMatrix empty_{std::vector<std::size_t>{}}, matrix_ = empty_, factor_ = empty_;
-    std::vector<double> gradient_, step_;
+    std::vector<bool> is_abscissa_;  // x of a point, whose y is the next unknown
+    std::vector<double> gradient_, step_, scale_, least_;
     ChainState trial_;
-    double damping_ = 1e-3, largest_ = 0.0;
+    double damping_ = 1e-3;
     bool free_knots_ = false;
 };
 

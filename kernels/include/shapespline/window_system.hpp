@@ -64,6 +64,7 @@ class WindowSystem {
         }
         matrix_ = EnvelopeMatrix(first);
         right_side_.assign(count, 0.0);
+        scale_.resize(count);
     }
 
     std::size_t size() const { return right_side_.size(); }
@@ -90,13 +91,16 @@ class WindowSystem {
         if (gaps_free_) add_gap_rows(window, curve, k, basis, moments);
     }
 
-    // Solves (A + damping diag(A) + a little) x = b; false if A is not positive definite.
+    // Solves (A + damping S + a little) x = b, S the scale of the unknowns; false if A is not positive definite.
     bool solve(double damping, std::vector<double> &x) {
-        double largest = 0.0;
-        for (std::size_t i = 0; i < size(); ++i) largest = std::max(largest, matrix_.at(i, i));
+        for (std::size_t i = 0; i < size(); ++i) scale_[i] = matrix_.at(i, i);
+        // One for both coordinates of a point: a step does not depend on the axes.
+        for (const int at : point_unknown_)
+            if (at >= 0) scale_[at] = scale_[at + 1] = 0.5 * (scale_[at] + scale_[at + 1]);
+        const double largest = *std::max_element(scale_.begin(), scale_.end());
         factor_ = matrix_;
         for (std::size_t i = 0; i < size(); ++i)
-            factor_.at(i, i) += damping * matrix_.at(i, i) + 1e-9 * largest;
+            factor_.at(i, i) += damping * scale_[i] + 1e-9 * largest;
         if (!factor_.factorize()) return false;
         x = right_side_;
         factor_.solve(x);
@@ -233,7 +237,7 @@ class WindowSystem {
     std::array<int, Degree + 1> points_;
     std::array<std::array<std::array<double, 3>, Degree + 1>, Degree + 1> weighted_;
     EnvelopeMatrix matrix_{std::vector<std::size_t>{}}, factor_{std::vector<std::size_t>{}};
-    std::vector<double> right_side_;
+    std::vector<double> right_side_, scale_;
 };
 
 }  // namespace shapespline::removal
