@@ -45,8 +45,8 @@ class ChainSolver {
         model_.project(state, 6);
     }
 
-    // Steps until the cost falls by less than the part `enough` or no damping lowers it. Needs
-    // projected feet, leaves them so.
+    // Steps until the cost falls, or a step promises that it falls, by less than the part `enough`,
+    // or no damping lowers it. Needs projected feet, leaves them so.
     double improve(ChainState &state, const ChainWeights &weights, bool free_knots, int iterations,
                    double enough) {
         set_unknowns(free_knots);
@@ -58,6 +58,7 @@ class ChainSolver {
             bool lower = false;
             for (int trial = 0; trial < kTrials && !lower; ++trial) {
                 if (solve(damping_)) {
+                    if (promised(damping_) < enough * now) break;
                     trial_ = state;
                     move_points(state, trial_);
                     if (free_knots) move_knots(state, trial_);
@@ -258,6 +259,14 @@ class ChainSolver {
         if (!factor_.factorize()) return false;
         factor_.solve(step_);
         return true;
+    }
+
+    // By how much the linearised sum of squares falls with the step.
+    double promised(double damping) const {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < step_.size(); ++i)
+            sum += step_[i] * (damping * scale_[i] * step_[i] - gradient_[i]);
+        return sum;
     }
 
     void move_points(const ChainState &from, ChainState &to) const {

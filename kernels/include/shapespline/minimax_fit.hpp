@@ -135,6 +135,9 @@ class MinimaxFit {
                     damping_ = 10.0 * damping_ + 1e-9;
                     continue;
                 }
+                const double promised =
+                    stage.half_power * inverse_sq_ * system_.promised(damping_, step_);
+                if (promised < kRelativeStop * value) return;
                 advance(stage.gaps_free);
                 next_value = merit(next_, stage.half_power);
                 improved = next_value < value;

@@ -107,6 +107,14 @@ class WindowSystem {
         return true;
     }
 
+    // By how much the linearised sum of squares falls with the step x of solve().
+    double promised(double damping, const std::vector<double> &x) const {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            sum += x[i] * (right_side_[i] + damping * scale_[i] * x[i]);
+        return sum;
+    }
+
   private:
     using Polynomial = std::array<Vec2, Degree + 1>;
     static constexpr int kGapReach = Degree - 1;  // gaps on either side that shape a span
