@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from shapespline import _kernels
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -31,20 +30,25 @@ def crossing_pairs(polylines: Sequence[FloatArray]) -> set[tuple[int, int]]:
     >>> crossing_pairs([*cross, np.array([(5.0, 5.0), (6.0, 6.0)])])
     {(0, 1)}
     """
-    lows = [polyline.min(axis=0) for polyline in polylines]
-    highs = [polyline.max(axis=0) for polyline in polylines]
-    return {
-        (i, j)
-        for i, j in combinations(range(len(polylines)), 2)
-        if (lows[i] <= highs[j]).all()
-        and (lows[j] <= highs[i]).all()
-        and _cross(polylines[i], polylines[j])
-    }
+    lows = np.array([polyline.min(axis=0) for polyline in polylines])
+    highs = np.array([polyline.max(axis=0) for polyline in polylines])
+    return {(i, j) for i, j in _meeting(lows, highs) if _cross(polylines[i], polylines[j])}
 
 
 def self_crossings(polyline: FloatArray) -> int:
     """Number of pairs of segments of a polyline that cross."""
     return int(_kernels.count_crossings(np.ascontiguousarray(polyline)))
+
+
+def _meeting(lows: FloatArray, highs: FloatArray) -> Iterator[tuple[int, int]]:
+    """Pairs (i, j), i < j, of boxes that meet, found among those whose ranges of x do."""
+    order = np.argsort(lows[:, 0], kind="stable")
+    ends = np.searchsorted(lows[order, 0], highs[order, 0], side="right")
+    for at, (k, end) in enumerate(zip(order, ends, strict=True)):
+        others = order[at + 1 : end]
+        meets = (lows[others, 1] <= highs[k, 1]) & (lows[k, 1] <= highs[others, 1])
+        for other in others[meets].tolist():
+            yield min(int(k), other), max(int(k), other)
 
 
 def _cross(first: FloatArray, second: FloatArray) -> bool:
