@@ -20,6 +20,7 @@
 #include "shapespline/cpda.hpp"
 #include "shapespline/deviation.hpp"
 #include "shapespline/footpoint.hpp"
+#include "shapespline/mean_distance.hpp"
 #include "shapespline/outline_search.hpp"
 #include "shapespline/removal_search.hpp"
 #include "shapespline/residuals.hpp"
@@ -209,6 +210,14 @@ NB_MODULE(_kernels, m) {
         "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "damping"_a,
         "control_step"_a.noconvert(), "parameter_step"_a.noconvert(),
         "along"_a.none().noconvert() = nb::none());
+
+    m.def(
+        "mean_distances",
+        [](In2 points, Out1 distances_sq) {
+            nb::gil_scoped_release release;
+            ss::mean_distances(vectors(points), distances_sq.data());
+        },
+        "points"_a.noconvert(), "distances_sq"_a.noconvert());
 
     m.def(
         "thinned",

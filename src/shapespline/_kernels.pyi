@@ -115,6 +115,7 @@ def corner_turns(
 # Asked now and then with the number of points, 0 before there is a curve; true ends the search.
 _Ask = Callable[[int], bool]
 
+def mean_distances(points: FloatArray, distances_sq: FloatArray) -> None: ...  # (n, 2), (n,)
 def thinned(
     points: FloatArray, distance: float, longest: float, marked: IntArray | None
 ) -> list[int]: ...  # indices that stay

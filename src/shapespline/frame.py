@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import frexp, fsum, ldexp
+from math import frexp, ldexp
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -164,7 +164,8 @@ def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
     whose distances from the mean come last in the dictionary; of equals its coordinates decide.
     So a turned or mirrored outline is read like the outline, but for rounding.
     """
-    away = _from_mean(points)
+    away = np.empty(len(points))
+    _kernels.mean_distances(points, away)
     ends = np.flatnonzero(away == away.max()).tolist() if closed else [0, len(points) - 1]
     readings = [(start, 1) for start in (ends if closed else ends[:1])]
     readings += [(start, -1) for start in (ends if closed else ends[1:])]
@@ -173,17 +174,6 @@ def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
         if _comes_last((away[:, None], points), reading, best):
             best = reading
     return best
-
-
-def _from_mean(points: FloatArray) -> FloatArray:
-    """Squared distances from the mean, to the last bit the same whatever the order of the points.
-
-    Relative to the largest coordinate, of which the square is always a number.
-    """
-    scale = ldexp(1.0, -frexp(float(np.abs(points).max()))[1])
-    scaled = points * scale
-    mean = np.array([fsum(x) for x in scaled.T]) / len(points)
-    return ((scaled - mean) ** 2).sum(axis=1)
 
 
 def _comes_last(keys: Sequence[FloatArray], a: tuple[int, int], b: tuple[int, int]) -> bool:
