@@ -1,5 +1,7 @@
 """``make bench``: every benchmark, one after the other; some fifteen minutes."""
 
+import pytest
+
 from benchmarks import (
     drawings,
     estimation,
@@ -21,3 +23,6 @@ traced.table(traced.TOLERANCE)
 ordering.table(None)
 drawings.main()
 scale.everything(7)
+raise SystemExit(
+    pytest.main(["benchmarks/test_kernels.py", "--benchmark-only", "--benchmark-enable"])
+)

@@ -31,8 +31,6 @@ from scipy.interpolate import splprep
 import shapespline as ss
 from benchmarks.peers import splprep_points
 from benchmarks.quality import LARGE, OWN, large_corpus
-from shapespline import _kernels
-from shapespline.footpoint import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -174,48 +172,12 @@ def noisy() -> None:
 
 
 def passes() -> None:
-    """Print the parts of a fit of a million points, and one pure residual pass."""
-    n = 1_000_000
-    points = wiggly(n)
+    """Print a fit of a million points in passes that find their residuals and do nothing else."""
+    points = wiggly(1_000_000)
     fit = ss.fit_curve(points, closed=True, tolerance=0.1)
-    knots, degree, coefficients = fit.spline.knots, fit.degree, fit.spline.coefficients
-    copied = np.empty_like(points)
-    rows = [
-        ("copy of the points (memory bandwidth)", lambda: np.copyto(copied, points), 32),
-        ("least and largest coordinates", lambda: (points[:, 0].min(), points[:, 1].max()), 32),
-        (
-            "thinning (cone intersection)",
-            lambda: _kernels.thinned(fit.contour.points, 1e-3, 0.5, None),
-            16,
-        ),
-        (
-            "residuals at known parameters",
-            lambda: fit.spline(fit.parameters) - points,
-            40,
-        ),
-        ("nearest point of the curve", lambda: nearest(fit.spline, points), 48),
-        (
-            "certified distance from curve to data",
-            lambda: _kernels.curve_deviation(knots, degree, coefficients, points, 1e-3, 1e-7),
-            16,
-        ),
-        (
-            "whole fit, balanced",
-            lambda: ss.fit_curve(points, closed=True, tolerance=0.1),
-            0,
-        ),
-    ]
-    print("\n## Passes over 1 000 000 points\n")
-    print("| pass | ns a point | bytes moved | part of the bandwidth |\n|---|---|---|---|")
-    bandwidth = 0.0
-    for name, call, moved in rows:
-        call()
-        seconds = median_of(call, 5)
-        rate = moved * n / seconds
-        bandwidth = bandwidth or rate
-        part = f"{rate / bandwidth:.0%}" if moved else ""
-        print(f"| {name} | {1e9 * seconds / n:.1f} | {moved or ''} | {part} |")
-    print(f"\nbandwidth of the copy: {bandwidth / 1e9:.1f} GB/s")
+    one = median_of(lambda: fit.spline(fit.parameters) - points, 5)
+    whole = median_of(lambda: ss.fit_curve(points, closed=True, tolerance=0.1), 5)
+    print(f"\nwhole fit of 1 000 000 points, balanced: {whole / one:.1f} residual passes")
 
 
 def coastlines() -> list[tuple[str, int, float]]:
