@@ -160,9 +160,10 @@ def reversed_curve(curve: BSplineCurve) -> BSplineCurve:
 def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
     """First index and step, 1 or -1, of an order that depends on the geometry only.
 
-    Of all ways to read the points, closed outlines from anywhere, open ones from an end, the one
-    whose distances from the mean come last in the dictionary; of equals its coordinates decide.
-    So a turned or mirrored outline is read like the outline, but for rounding.
+    Of all ways to read the points, closed outlines from one that is farthest from their mean, open
+    ones from an end, the one whose distances from the mean come first in the dictionary; of equals
+    its coordinates decide. So a turned or mirrored outline is read like the outline, but for
+    rounding.
     """
     away = np.empty(len(points))
     _kernels.mean_distances(points, away)
@@ -171,13 +172,13 @@ def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
     readings += [(start, -1) for start in (ends if closed else ends[1:])]
     best = readings[0]
     for reading in readings[1:]:
-        if _comes_last((away[:, None], points), reading, best):
+        if _comes_first((away[:, None], points), reading, best):
             best = reading
     return best
 
 
-def _comes_last(keys: Sequence[FloatArray], a: tuple[int, int], b: tuple[int, int]) -> bool:
-    """Whether one way to read rows, from a start by steps, stands behind another."""
+def _comes_first(keys: Sequence[FloatArray], a: tuple[int, int], b: tuple[int, int]) -> bool:
+    """Whether one way to read rows, from a start by steps, stands before another."""
     for rows in keys:
         n, begin, end = len(rows), 0, 16
         while begin < n:
@@ -185,6 +186,6 @@ def _comes_last(keys: Sequence[FloatArray], a: tuple[int, int], b: tuple[int, in
             mine, yours = (rows[(start + step * index) % n].ravel() for start, step in (a, b))
             differ = np.flatnonzero(mine != yours)
             if len(differ):
-                return bool(mine[differ[0]] > yours[differ[0]])
+                return bool(mine[differ[0]] < yours[differ[0]])
             begin, end = end, 2 * end
     return False
