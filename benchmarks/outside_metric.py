@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 MOST_SAMPLES = 2_000_000
 FEWEST_A_SPAN = 64
+# Samples beside which the nearest point of a curve is looked for.
+BRANCHES = 4
 
 
 class TwoSided(NamedTuple):
@@ -71,12 +73,21 @@ def distance_to_polyline(points: Array, polyline: Array, step: float) -> Array:
 
 
 def distance_to_curve(points: Array, curve: BSpline, step: float) -> Array:
-    """Distance of each point to a curve: the nearest sample, then Newton's method beside it."""
+    """Distance of each point to a curve: the nearest samples, then Newton's method beside them.
+
+    Several, since of two branches that meet the one with the nearest sample may be farther.
+    """
     parameters, samples = curve_samples(curve, step)
-    best, nearest = cKDTree(samples).query(points)
-    u = parameters[nearest]
-    low = parameters[np.maximum(nearest - 1, 0)]
-    high = parameters[np.minimum(nearest + 1, len(parameters) - 1)]
+    _, near = cKDTree(samples).query(points, k=BRANCHES)
+    return np.min([_beside(points, curve, parameters, at) for at in near.T], axis=0)
+
+
+def _beside(points: Array, curve: BSpline, parameters: Array, at: NDArray[np.int_]) -> Array:
+    """Distance to the curve between the neighbours of one sample for each point."""
+    u = parameters[at]
+    low = parameters[np.maximum(at - 1, 0)]
+    high = parameters[np.minimum(at + 1, len(parameters) - 1)]
+    best = np.hypot(*(curve(u) - points).T)
     for _ in range(5):
         off, velocity = curve(u) - points, curve(u, nu=1)
         speed_sq = (velocity**2).sum(axis=1)

@@ -25,7 +25,7 @@ def drawings(outline):
         "nested": nested(),
         "degree 5": Drawing([fit_of(blob(degree=5))]),
         "square": Drawing([ss.fit_curve(square, tolerance=0.01)]),
-        "hand": Drawing([ss.fit_curve(outline("hand620_closed"), tolerance=0.2)]),
+        "hand": Drawing([ss.fit_curve(outline("hand620_closed"), tolerance=0.3)]),
         "loop": Drawing([ss.fit_curve(outline("loop500_open"), tolerance=0.2)]),
     }
 

@@ -160,16 +160,18 @@ def reversed_curve(curve: BSplineCurve) -> BSplineCurve:
 def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
     """First index and step, 1 or -1, of an order that depends on the geometry only.
 
-    Of all ways to read the points, closed outlines from one that is farthest from their mean, open
-    ones from an end, the one whose distances from the mean come first in the dictionary; of equals
-    its coordinates decide. So a turned or mirrored outline is read like the outline, but for
-    rounding.
+    Closed outlines are read from a point that is farthest from their mean, open ones from the end
+    that is farther; of the ways that are left the one is taken whose distances from the mean come
+    first in the dictionary, or of equals whose coordinates do. So a turned or mirrored outline is
+    read like the outline, but for rounding.
     """
     away = np.empty(len(points))
     _kernels.mean_distances(points, away)
-    ends = np.flatnonzero(away == away.max()).tolist() if closed else [0, len(points) - 1]
-    readings = [(start, 1) for start in (ends if closed else ends[:1])]
-    readings += [(start, -1) for start in (ends if closed else ends[1:])]
+    farthest = away.max() if closed else max(away[0], away[-1])
+    starts = np.flatnonzero(away == farthest).tolist()
+    last = len(points) - 1
+    readings = [(start, 1) for start in starts if closed or start == 0]
+    readings += [(start, -1) for start in starts if closed or start == last]
     best = readings[0]
     for reading in readings[1:]:
         if _comes_first((away[:, None], points), reading, best):

@@ -91,7 +91,8 @@ class WindowSystem {
         if (gaps_free_) add_gap_rows(window, curve, k, basis, moments);
     }
 
-    // Solves (A + damping S + a little) x = b, S the scale of the unknowns; false if A is not positive definite.
+    // Solves (A + damping S + a little) x = b, S the scale of the unknowns; false if A is not
+    // positive definite.
     bool solve(double damping, std::vector<double> &x) {
         for (std::size_t i = 0; i < size(); ++i) scale_[i] = matrix_.at(i, i);
         // One for both coordinates of a point: a step does not depend on the axes.
