@@ -28,7 +28,7 @@ TIERS = [
         "ordering", "chain_links", "centerline", "formats", "plot", "comparison", "polygons",
         "joining", "frame", "exact", "scaling", "arcs",
         "crossings", "shared", "progress", "outliers", "point_stream",
-        "averaging", "passes", "large_fit", "stand_in",
+        "averaging", "passes", "large_fit", "stand_in", "trails", "slits",
     },
     {"held"},
     {"outline"},

@@ -1,40 +1,61 @@
-"""Curves that cross where their data do not: the pieces that cross are fitted again, closer.
+"""Curves that cross where their data do not: the pieces that cross are fitted again.
 
 A slit that is narrower than the tolerance closes when both of its sides may move by it. A closer
 fit of everything would keep it open at the price of points everywhere; here only the pieces beside
-it are fitted to their own data again, between their nodes and with their tangents, a quarter of
-the distance away, until they no longer cross.
+it are fitted again, between their nodes and with their tangents, to points that were moved from the
+other side (`slits`); where that does not part them, to their own points closer and closer.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline.contour import Contour
 from shapespline.crossings import crossing_pairs, self_crossings
-from shapespline.curve import BSplineCurve
-from shapespline.drawing import Piece
 from shapespline.exact import sampled
+from shapespline.footpoint import nearest
 from shapespline.joining import joined, turn_between
+from shapespline.slits import Sides, moved
+from shapespline.trails import SAMPLING_PART, Part, Row, curve_of, located, pieces_of
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from shapespline.drawing import Fit
+    from shapespline.trails import Trail
     from shapespline.typing import FloatArray
 
-# Curves are looked at as polylines within this part of their tolerance.
-SAMPLING_PART = 0.02
-# Pieces that cross are fitted so many times again, each time within this part of the distance.
-ROUNDS, CLOSER = 5, 0.25
-# A node belongs to the nearest of the points whose arc length is this near to its own, in parts of
-# the piece before it and in tolerances. Joints that turn less than this, radians, are smooth.
-ALONG, TOLERANCES, SMOOTH = 0.3, 4.0, np.radians(1.0)
+    Refit = Callable[[Contour, float, "Tangents"], Fit]
+
+
+class Step(NamedTuple):
+    """How pieces that cross are fitted again.
+
+    ``within`` is the part of the tolerance; ``beside`` how many neighbours go with each piece;
+    ``moved`` whether points move by the rest of the tolerance.
+    """
+
+    within: float
+    beside: int
+    moved: bool
+
+
+# Where the pieces alone are not enough a node is to blame, which goes with both of its pieces. The
+# last two follow the points as they came, closer.
+STEPS = (
+    Step(3 / 4, 0, True),
+    Step(3 / 4, 1, True),
+    Step(1 / 2, 1, True),
+    Step(1 / 4, 1, True),
+    Step(1 / 8, 1, False),
+    Step(1 / 32, 1, False),
+)
+# Joints that turn less than this, radians, are smooth.
+SMOOTH = np.radians(1.0)
 
 # Searches that follow the points. What was estimated from noisy ones would follow their noise.
 FOLLOWING = ("sections", "removal")
@@ -43,69 +64,63 @@ CROSSES = "it crosses a curve where the data do not"
 Tangents = tuple["FloatArray | None", "FloatArray | None"]
 
 
-class Part(NamedTuple):
-    """A piece, the points that it stands for with its nodes at both ends, and its distance."""
-
-    piece: Piece
-    points: FloatArray
-    within: float
-
-    @property
-    def line(self) -> FloatArray:
-        """The piece as a polyline."""
-        piece = self.piece
-        curve = BSplineCurve(piece.knots, piece.control_points, piece.degree)
-        return sampled(curve, SAMPLING_PART * self.within)[0].polyline
-
-
-def uncrossed(
-    contours: Sequence[Contour],
-    fits: Sequence[Fit],
-    refit: Callable[[Contour, float, Tangents], Fit],
-) -> list[Fit]:
-    """Fits whose curves cross no more than their data, as far as closer pieces bring that about.
+def uncrossed(contours: Sequence[Contour], fits: Sequence[Fit], refit: Refit) -> list[Fit]:
+    """Fits whose curves cross no more than their data, as far as other pieces bring that about.
 
     ``refit`` fits an open row of points within a distance, with its ends and, where given, its end
-    tangents. Fits that cross after all say so in their status.
+    tangents. Of the rows tried the one with the fewest parts that cross is taken. Fits that cross
+    after all say so in their status.
     """
-    lines = [sampled(fit.spline, SAMPLING_PART * fit.tolerance)[0].polyline for fit in fits]
-    if not _new_crossings(contours, lines):
+    lines = [_line(fit) for fit in fits]
+    pairs = _new_crossings(contours, lines)
+    if not pairs:
         return list(fits)
-    parts = [_parts(fit.contour, _pieces(fit), fit.tolerance) for fit in fits]
-    changed: set[int] = set()
-    crossing: list[tuple[int, int]] = []
-    for turn in range(ROUNDS + 1):
-        crossing = _crossing_parts(contours, parts)
-        owners = {owner for owner, _ in crossing if fits[owner].method in FOLLOWING}
-        if turn == ROUNDS or not owners:
+    sides = Sides.of([fit.contour for fit in fits])
+    begun: dict[int, Row] = {}
+    rows: dict[int, Row] = {}
+    best: dict[int, tuple[int, Row]] = {}
+    for step in (*STEPS, None):
+        for owner in {owner for pair in pairs for owner in pair} - rows.keys():
+            rows[owner] = begun[owner] = Row.of(owner, fits[owner])
+        found = _crossing_parts(pairs, rows)
+        for owner, row in rows.items():
+            count = len(found.get(owner, ()))
+            if owner not in best or count < best[owner][0]:
+                best[owner] = count, row
+        owners = [owner for owner in found if fits[owner].method in FOLLOWING]
+        if step is None or not owners:
             break
         for owner in owners:
-            row, closed = parts[owner], fits[owner].closed
-            found = [at for other, at in crossing if other == owner]
-            # Where that was not enough a node is to blame, which goes with both of its pieces.
-            for begin, end in reversed(_windows(found, int(turn > 0), len(row))):
-                row[begin:end] = _closer(row, begin, end, closed, refit)
-            changed.add(owner)
-    still = {owner for owner, _ in crossing}
-    result = [_told(fit) if i in still else fit for i, fit in enumerate(fits)]
-    for owner in changed:
-        fit = fits[owner]
-        pieces = tuple(part.piece for part in parts[owner])
-        again = verified_fit(
-            fit.contour,
-            joined(pieces, fit.degree),
-            tolerance=fit.tolerance,
-            method=fit.method,
-            sections=pieces,
-            history=fit.history,
-        )
-        # Where data overlap a piece may have been given the points of another: the promise comes
-        # first.
-        broken = fit.kept and not again.kept
-        result[owner] = fit if broken else again
-        if broken or owner in still:
-            result[owner] = _told(result[owner])
-    return result
+            rows[owner] = _fitted_again(rows[owner], found[owner], step, sides, refit)
+            lines[owner] = rows[owner].line
+        pairs = _new_crossings(contours, lines)
+    result = list(fits)
+    for owner, (_, row) in best.items():
+        if row is not begun[owner]:
+            result[owner] = _verified(row)
+        lines[owner] = _line(result[owner])
+    still = {owner for pair in _new_crossings(contours, lines) for owner in pair}
+    return [_told(fit) if owner in still else fit for owner, fit in enumerate(result)]
+
+
+def _line(fit: Fit) -> FloatArray:
+    """A fit as a polyline."""
+    return sampled(fit.spline, SAMPLING_PART * fit.tolerance)[0].polyline
+
+
+def _verified(row: Row) -> Fit:
+    """The fit of a row, unless it breaks the promise that was kept."""
+    fit, pieces = row.fit, tuple(part.piece for part in row.parts)
+    again = verified_fit(
+        fit.contour,
+        joined(pieces, fit.degree),
+        tolerance=fit.tolerance,
+        method=fit.method,
+        sections=pieces,
+        history=fit.history,
+    )
+    # Where data overlap a piece may have been given the points of another: the promise comes first.
+    return fit if fit.kept and not again.kept else again
 
 
 def _told(fit: Fit) -> Fit:
@@ -115,61 +130,11 @@ def _told(fit: Fit) -> Fit:
     return replace(fit, status=fit.status.saying(f"{sentence}; {CROSSES}"))
 
 
-def _pieces(fit: Fit) -> tuple[Piece, ...]:
-    """The pieces of a fit; the Beziers of a single spline."""
-    if fit.sections:
-        return fit.sections
-    knots = np.repeat([0.0, 1.0], fit.degree + 1)
-    beziers = fit.spline.beziers().points
-    return tuple(Piece("bezier", fit.degree, knots, points.copy()) for points in beziers)
-
-
-def _parts(contour: Contour, pieces: Sequence[Piece], within: float) -> list[Part]:
-    """Pieces with the points between their nodes, found along the arc lengths of both."""
-    points = contour.polyline
-    nodes = np.array([piece.control_points[0] for piece in pieces])
-    if contour.closed:
-        first = int(((contour.points - nodes[0]) ** 2).sum(axis=1).argmin())
-        points = np.roll(contour.points, -first, axis=0)
-        points = np.concatenate([points, points[:1]])
-    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    lengths = np.array([_length(piece) for piece in pieces])
-    stretch = along[-1] / lengths.sum()
-    begins = [0]
-    for node, length in zip(nodes[1:], lengths[:-1] * stretch, strict=True):
-        reach = ALONG * length + TOLERANCES * within
-        target = along[begins[-1]] + length
-        low, high = np.searchsorted(along, [target - reach, target + reach])
-        low = min(max(int(low), begins[-1]), len(points) - 1)
-        near = points[low : max(int(high), low + 1)]
-        begins.append(low + int(((near - node) ** 2).sum(axis=1).argmin()))
-    begins.append(len(points) - 1)
-    return [
-        Part(
-            piece,
-            np.concatenate(
-                [piece.control_points[:1], points[i + 1 : k], piece.control_points[-1:]]
-            ),
-            within,
-        )
-        for piece, (i, k) in zip(pieces, pairwise(begins), strict=True)
-    ]
-
-
-def _length(piece: Piece) -> float:
-    if piece.degree == 1:
-        return float(np.hypot(*np.diff(piece.control_points, axis=0).T).sum())
-    return BSplineCurve(piece.knots, piece.control_points, piece.degree).length()
-
-
-def _crossing_parts(
-    contours: Sequence[Contour], parts: Sequence[Sequence[Part]]
-) -> list[tuple[int, int]]:
-    """Contour and index of the parts that cross others, or themselves, where no data cross."""
-    lines = [[part.line for part in row] for row in parts]
-    whole = [np.concatenate([*(line[:-1] for line in row), row[-1][-1:]]) for row in lines]
+def _crossing_parts(pairs: set[tuple[int, int]], rows: Mapping[int, Row]) -> dict[int, list[int]]:
+    """Of each contour the parts that cross others, or themselves, where no data cross."""
+    lines = {owner: [part.line for part in row.parts] for owner, row in rows.items()}
     found: set[tuple[int, int]] = set()
-    for i, j in _new_crossings(contours, whole):
+    for i, j in pairs:
         mine = [(i, k) for k in range(len(lines[i]))]
         yours = [] if i == j else [(j, k) for k in range(len(lines[j]))]
         places = mine + yours
@@ -178,7 +143,10 @@ def _crossing_parts(
                 found |= {places[a], places[b]}
         if i == j:
             found |= {(i, k) for _, k in mine if self_crossings(lines[i][k])}
-    return sorted(found)
+    return {
+        owner: sorted(k for other, k in found if other == owner)
+        for owner in sorted({owner for owner, _ in found})
+    }
 
 
 def _new_crossings(
@@ -196,6 +164,32 @@ def _new_crossings(
     }
 
 
+def _fitted_again(
+    row: Row,
+    found: Sequence[int],
+    step: Step,
+    sides: Sides,
+    refit: Refit,
+) -> Row:
+    """The row with the parts that cross, and so many beside them, fitted again."""
+    if row.fit.closed and step.beside:
+        first = _seam(found, len(row.parts))
+        row, found = row.turned(first), [(at - first) % len(row.parts) for at in found]
+    parts = list(row.parts)
+    for begin, end in reversed(_windows(found, step.beside, len(parts))):
+        parts[begin:end] = _window_again(row, begin, end, step, sides, refit)
+    return row._replace(parts=tuple(parts))
+
+
+def _seam(found: Sequence[int], count: int) -> int:
+    """The part to begin with: away from those that cross, or elsewhere than before."""
+
+    def crossing_beside(at: int) -> tuple[int, int]:
+        return (at in found) + ((at - 1) % count in found), abs(at - count // 2)
+
+    return min(range(count), key=crossing_beside)
+
+
 def _windows(found: Sequence[int], beside: int, count: int) -> list[tuple[int, int]]:
     """Runs of neighbours (begin, end) around some indices, each once."""
     windows: list[tuple[int, int]] = []
@@ -207,27 +201,61 @@ def _windows(found: Sequence[int], beside: int, count: int) -> list[tuple[int, i
     return windows
 
 
-def _closer(
-    row: Sequence[Part],
+def _window_again(
+    row: Row,
     begin: int,
     end: int,
-    closed: bool,
-    refit: Callable[[Contour, float, Tangents], Fit],
-) -> list[Part]:
-    """Parts fitted again to their own points, with their outer nodes and smooth tangents there."""
-    window = row[begin:end]
-    within = CLOSER * min(part.within for part in window)
+    step: Step,
+    sides: Sides,
+    refit: Refit,
+) -> tuple[Part, ...]:
+    """Parts fitted again, with their outer nodes and the smooth tangents there."""
+    window = row.parts[begin:end]
+    within = step.within * row.fit.tolerance
     first, last = window[0].piece.control_points, window[-1].piece.control_points
-    inner = [part.points[1:-1] for part in window]
-    contour = Contour.silently(np.concatenate([first[:1], *inner, last[-1:]]), closed=False)
-    before = row[begin - 1].piece if begin > 0 or closed else None
-    after = row[end % len(row)].piece if end < len(row) or closed else None
-    tangents: list[FloatArray | None] = [None, None]
-    if before is not None and abs(turn_between(before, window[0].piece)) < SMOOTH:
-        tangents[0] = first[1] - first[0]
-    if after is not None and abs(turn_between(window[-1].piece, after)) < SMOOTH:
-        tangents[1] = last[-1] - last[-2]
-    fit = refit(contour, within, (tangents[0], tangents[1]))
+    trail = row.trail.part(window[0].begin, window[-1].end)
+    points = _aside(row, window, trail, within, sides) if step.moved else trail.points
+    # What is so near to an outer node is kept by it, and may lie behind it.
+    beyond = _beyond(trail.points, first[0], within)
+    before_last = _beyond(trail.points[::-1], last[-1], within)
+    inner = points[beyond : len(points) - before_last]
+    contour = Contour.silently(np.concatenate([first[:1], inner, last[-1:]]), closed=False)
+    fit = refit(contour, within, _tangents(row, begin, end))
     if not fit.kept:
         fit = refit(contour, within, (None, None))
-    return _parts(contour, _pieces(fit), within)
+    return located(trail, pieces_of(fit), row.fit.tolerance, window[0].begin)
+
+
+def _beyond(points: FloatArray, node: FloatArray, within: float) -> int:
+    """How many points from the first on are this near to a node; none if all are."""
+    return int(np.argmax(np.hypot(*(points - node).T) > within)) if len(points) else 0
+
+
+def _aside(
+    row: Row, window: Sequence[Part], trail: Trail, within: float, sides: Sides
+) -> FloatArray:
+    """The points of a window moved from what lies across a slit."""
+    if not len(trail.points):
+        return trail.points
+    feet = [_feet(part, row.trail.points[part.begin : part.end]) for part in window]
+    across = sides.beside(trail.points, 2 * within).across(trail, row.owner, within)
+    room = row.fit.tolerance - within
+    return moved(trail.points, np.concatenate(feet), across, within, room)
+
+
+def _feet(part: Part, points: FloatArray) -> FloatArray:
+    """The nearest point of a part for each point."""
+    curve = curve_of(part.piece)
+    return curve(nearest(curve, points).parameters)
+
+
+def _tangents(row: Row, begin: int, end: int) -> Tangents:
+    """The tangents at the outer nodes of a window, where its neighbours go on smoothly."""
+    pieces, closed = [part.piece for part in row.parts], row.fit.closed
+    tangents: list[FloatArray | None] = [None, None]
+    if (begin > 0 or closed) and abs(turn_between(pieces[begin - 1], pieces[begin])) < SMOOTH:
+        tangents[0] = np.diff(pieces[begin].control_points[:2], axis=0)[0]
+    after = pieces[end % len(pieces)]
+    if (end < len(pieces) or closed) and abs(turn_between(pieces[end - 1], after)) < SMOOTH:
+        tangents[1] = np.diff(pieces[end - 1].control_points[-2:], axis=0)[0]
+    return tangents[0], tangents[1]

@@ -1,0 +1,186 @@
+"""Pieces of a curve and the points that each stands for, along the trail of the data."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.curve import BSplineCurve
+from shapespline.drawing import Piece
+from shapespline.exact import sampled
+from shapespline.footpoint import nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from shapespline.contour import Contour
+    from shapespline.drawing import Fit
+    from shapespline.typing import FloatArray
+
+# Curves are looked at as polylines within this part of their tolerance.
+SAMPLING_PART = 0.02
+# A node lies between two of the points whose arc length is this near to its own, in parts of the
+# piece before it and in tolerances.
+ALONG, TOLERANCES = 0.3, 4.0
+
+
+class Trail(NamedTuple):
+    """Points in their order, and how far along their contour each is, past its end and on."""
+
+    points: FloatArray
+    along: FloatArray
+
+    def part(self, begin: int, end: int) -> Trail:
+        """The points from one up to another."""
+        return Trail(self.points[begin:end], self.along[begin:end])
+
+    def turned(self, first: int, length: float) -> Trail:
+        """The trail of a closed contour of this length from another first point on."""
+        along = np.concatenate([self.along[first:], self.along[:first] + length])
+        return Trail(np.roll(self.points, -first, axis=0), along)
+
+
+class Part(NamedTuple):
+    """A piece, it as a polyline, and the points ``begin`` up to ``end`` that it stands for."""
+
+    piece: Piece
+    line: FloatArray
+    begin: int
+    end: int
+
+    def shifted(self, by: int) -> Part:
+        """The part where its points come later."""
+        return self._replace(begin=self.begin + by, end=self.end + by)
+
+
+class Row(NamedTuple):
+    """The parts of a fit, end to end along the trail of its data, and which fit it is."""
+
+    owner: int
+    fit: Fit
+    trail: Trail
+    parts: tuple[Part, ...]
+
+    @classmethod
+    def of(cls, owner: int, fit: Fit) -> Row:
+        """The row of a fit; of a closed one from its longest piece on."""
+        pieces, contour = pieces_of(fit), fit.contour
+        trail = Trail(contour.points, contour.arc_length[: len(contour)])
+        if contour.closed:
+            lengths = [curve_of(piece).length() for piece in pieces]
+            longest = int(np.argmax(lengths))
+            pieces = pieces[longest:] + pieces[:longest]
+            share = lengths[longest] / sum(lengths)
+            begin = _begin(contour, curve_of(pieces[0]), share, fit.tolerance)
+            trail = trail.turned(begin, contour.length)
+        return cls(owner, fit, trail, located(trail, pieces, fit.tolerance))
+
+    @property
+    def line(self) -> FloatArray:
+        """All pieces as one polyline."""
+        return np.concatenate([*(part.line[:-1] for part in self.parts), self.parts[-1].line[-1:]])
+
+    def turned(self, first: int) -> Row:
+        """The row of a closed fit from another part on."""
+        begin, count = self.parts[first].begin, len(self.trail.points)
+        trail = self.trail.turned(begin, self.fit.contour.length)
+        ahead = [part.shifted(-begin) for part in self.parts[first:]]
+        rest = [part.shifted(count - begin) for part in self.parts[:first]]
+        return self._replace(trail=trail, parts=(*ahead, *rest))
+
+
+def curve_of(piece: Piece) -> BSplineCurve:
+    """A piece as a curve."""
+    return BSplineCurve(piece.knots, piece.control_points, piece.degree)
+
+
+def pieces_of(fit: Fit) -> tuple[Piece, ...]:
+    """The pieces of a fit; of a closed one that has none the Beziers of its spline."""
+    if fit.sections:
+        return fit.sections
+    spline = fit.spline
+    if not fit.closed:
+        kind = "bezier" if len(spline.control_points) == fit.degree + 1 else "spline"
+        return (Piece(kind, fit.degree, spline.knots, spline.control_points),)
+    knots = np.repeat([0.0, 1.0], fit.degree + 1)
+    beziers = spline.beziers().points
+    return tuple(Piece("bezier", fit.degree, knots, points.copy()) for points in beziers)
+
+
+def shares_of(points: FloatArray, begins: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Where on segments the points nearest to some points are, in parts of the segments."""
+    shares = ((points - begins) * vectors).sum(axis=-1) / (vectors**2).sum(axis=-1)
+    return np.clip(shares, 0.0, 1.0)
+
+
+def located(
+    trail: Trail, pieces: Sequence[Piece], tolerance: float, first: int = 0
+) -> tuple[Part, ...]:
+    """Pieces with the points between their nodes, of a trail that begins with point ``first``.
+
+    Nodes are looked for along the arc lengths of both.
+    """
+    curves = [curve_of(piece) for piece in pieces]
+    lengths = np.array([curve.length() for curve in curves])
+    count = len(trail.along)
+    if count:
+        lengths *= (trail.along[-1] - trail.along[0]) / lengths.sum()
+    cuts = [0]
+    for (before, after), length in zip(pairwise(curves), lengths[:-1], strict=True):
+        begin = min(cuts[-1], count - 1)
+        reach = ALONG * length + TOLERANCES * tolerance
+        target = trail.along[begin] + length if count else 0.0
+        low, high = np.searchsorted(trail.along, [target - reach, target + reach])
+        low = max(int(low), cuts[-1])
+        cuts.append(low + _cut(before, after, trail.points[low : int(high)], tolerance))
+    cuts.append(count)
+    return tuple(
+        Part(piece, sampled(curve, SAMPLING_PART * tolerance)[0].polyline, first + i, first + k)
+        for piece, curve, (i, k) in zip(pieces, curves, pairwise(cuts), strict=True)
+    )
+
+
+def _begin(contour: Contour, curve: BSplineCurve, share: float, tolerance: float) -> int:
+    """The first of a closed contour's points that goes with a curve along a share of it.
+
+    Across a slit another place may be as near to where the curve begins, but the points after that
+    do not run along the curve.
+    """
+    lost = nearest(curve, contour.points).distances_sq > tolerance**2
+    n_lost = np.concatenate([[0], np.cumsum(np.tile(lost, 2))])
+    along = contour.arc_length[:-1]
+    ahead = along + 0.5 * share * contour.length
+    ends = np.searchsorted(np.concatenate([along, along + contour.length]), ahead)
+    lost_ahead = n_lost[ends] - n_lost[: len(contour)]
+    # By place of the segment before each point.
+    distances_sq = np.roll(_distances_sq(curve.control_points[0], contour.polyline), 1)
+    return int(np.lexsort((distances_sq, lost_ahead))[0])
+
+
+def _cut(before: BSplineCurve, after: BSplineCurve, points: FloatArray, tolerance: float) -> int:
+    """How many of some points go with the first of two curves: the fewest too far from their own.
+
+    Where data lie over themselves the nearest place to the node may be another; of cuts that are
+    as good the nearest to the node is taken.
+    """
+    if not len(points):
+        return 0
+    lost = [nearest(curve, points).distances_sq > tolerance**2 for curve in (before, after)]
+    n_lost = np.concatenate([[0], np.cumsum(lost[0].astype(int) - lost[1])])
+    fewest = np.flatnonzero(n_lost == n_lost.min())
+    node = _behind(after.control_points[0], points)
+    return int(fewest[np.abs(fewest - node).argmin()])
+
+
+def _behind(node: FloatArray, polyline: FloatArray) -> int:
+    """The end of the segment of a polyline that is nearest to a node."""
+    return int(_distances_sq(node, polyline).argmin()) + 1 if len(polyline) > 1 else 0
+
+
+def _distances_sq(node: FloatArray, polyline: FloatArray) -> FloatArray:
+    """Squared distances of a node from the segments of a polyline."""
+    begins, vectors = polyline[:-1], np.diff(polyline, axis=0)
+    feet = begins + shares_of(node, begins, vectors)[:, None] * vectors
+    return np.asarray(((feet - node) ** 2).sum(axis=1))

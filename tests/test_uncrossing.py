@@ -1,0 +1,126 @@
+"""Slits narrower than the tolerance stay open, for few points."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from benchmarks.outside_metric import two_sided
+from numpy.testing import assert_allclose, assert_array_equal
+
+import shapespline as ss
+from shapespline.crossings import self_crossings
+from shapespline.exact import sampled
+from shapespline.sections import fit_pieces
+from shapespline.slits import Sides, moved
+from shapespline.trails import Row, Trail
+
+IMAGES = Path(__file__).resolve().parents[1] / "examples" / "data" / "images"
+
+
+def crossings(fit, tolerance):
+    return self_crossings(sampled(fit.spline, 0.01 * tolerance)[0].polyline)
+
+
+def airfoil(camber, power, n=40):
+    """A cambered airfoil whose trailing edge is sharp and thin for long; from there around."""
+    x = 0.5 * (1 + np.cos(np.pi * np.arange(n) / n))
+    middle = camber * np.sin(np.pi * x**1.5)
+    half = 0.12 * np.sqrt(x) * (1 - x) ** power
+    upper = np.column_stack([x, middle + half])
+    lower = np.column_stack([x, middle - half])[:0:-1]
+    return np.concatenate([upper, [(0.0, 0.0)], lower])
+
+
+def ribbon(waves, half, n=150):
+    """A closed outline around a wavy band that is thinner than the tolerance."""
+    x = np.linspace(-1, 1, n)
+    middle = 0.1 * np.sin(waves * x)
+    low, high = middle - half * (1 + 0.5 * np.sin(5 * x)), middle + half * (1 + 0.5 * np.cos(4 * x))
+    return np.concatenate([np.column_stack([x, low]), np.column_stack([x, high])[::-1]])
+
+
+@pytest.mark.parametrize(
+    ("points", "part"),
+    [
+        (airfoil(0.03, 2.5), 0.008),
+        (airfoil(0.06, 2.5), 0.003),
+        (airfoil(0.09, 2.5), 0.012),
+        (ribbon(7, 0.002), 0.008),
+        (ribbon(11, 0.002), 0.005),
+    ],
+)
+def test_slits_stay_open_for_few_points(points, part):
+    contour = ss.Contour(points, closed=True)
+    tolerance = part * contour.box_diagonal
+    searched = fit_pieces(contour, tolerance)
+    assert crossings(searched, tolerance) > 0  # else no test
+    fit = ss.fit_curve(contour, tolerance=tolerance)
+    assert crossings(fit, tolerance) == self_crossings(contour.polyline) == 0
+    assert fit.kept
+    assert two_sided(fit.curve, points, closed=True, step=tolerance / 10).larger <= tolerance
+    # Cubics err with the fourth power of their length: twice the points are a fit of everything
+    # within a sixteenth of the distance.
+    assert fit.n_stored_points <= 2 * searched.n_stored_points
+
+
+def test_curves_beside_slits_do_not_depend_on_the_first_point():
+    points = airfoil(0.03, 2.5)
+    tolerance = 0.008 * ss.Contour(points, closed=True).box_diagonal
+    fits = [
+        ss.fit_curve(np.roll(points, k, axis=0), closed=True, tolerance=tolerance)
+        for k in (0, 1, 33)
+    ]
+    for fit in fits[1:]:
+        assert_array_equal(fit.control_points, fits[0].control_points)
+
+
+def test_every_outline_of_a_drawing_comes_apart():
+    # One of them is so narrow that a node is nearer to the other side than to its own.
+    drawing = ss.fit_shape(ss.read(IMAGES / "opencv_butterfly.jpg"), tolerance=1.5)
+    assert all(fit.kept and crossings(fit, 1.5) == 0 for fit in drawing)
+    assert not [fit for fit in drawing if "crosses" in fit.status.value]
+
+
+def trail(contour):
+    return Trail(contour.points, contour.arc_length[: len(contour)])
+
+
+def test_what_lies_across_a_slit_by_hand():
+    hairpin = ss.Contour([(0, 0), (4, 0), (8, 0), (8, 1), (4, 1), (0, 1)], closed=False)
+    across = Sides.of([hairpin]).across(trail(hairpin), 0, least=0.0)
+    # The ways around are 17, 9 and 1: the last is no slit.
+    assert_allclose(across[[0, 1, 4, 5]], [(0, -1), (0, -1), (0, 1), (0, 1)])
+    assert np.isinf(across[[2, 3]]).all()
+    far = Sides.of([hairpin]).across(trail(hairpin), 0, least=10.0)
+    assert np.isinf(far).all(axis=1).tolist() == [False, True, True, True, True, False]
+    # A closed one is as short the other way around; another outline is always another side.
+    ring = ss.Contour(hairpin.points, closed=True)
+    assert np.isinf(Sides.of([ring]).across(trail(ring), 0, least=0.0)[0]).all()
+    other = ss.Contour(hairpin.points + np.array([0, 3]), closed=False)
+    assert_allclose(Sides.of([ring, other]).across(trail(ring), 0, least=0.0)[3], (0, -2))
+
+
+def test_points_move_apart_and_no_farther_than_the_room():
+    within, room = 0.75, 0.25
+    points = np.array([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0)])
+    across = np.array([(0.0, 1.2), (0.0, 0.1), (np.inf, np.inf), (0.0, 9.0)])
+    feet = points + np.array([(0.0, -1.0), (0.0, 1.0), (0.0, 1.0), (0.0, -0.5)])
+    offsets = moved(points, feet, across, within, room) - points
+    # Half the gap, 0.6, and 0.15 more than a quarter towards the curve: beyond what is missing.
+    assert_allclose(offsets, [(0, 0.15), (0, 0.25), (0, 0.25), (0, -0.125)], atol=1e-15)
+
+
+def test_parts_hold_every_point_once_from_any_of_them_on():
+    contour = ss.Contour(ribbon(7, 0.002), closed=True)
+    fit = ss.fit_curve(contour, tolerance=0.3)
+    row = Row.of(0, fit)
+    for at in range(len(row.parts)):
+        turned = row.turned(at)
+        bounds = [part.begin for part in turned.parts] + [turned.parts[-1].end]
+        assert bounds[0] == 0
+        assert bounds[-1] == len(contour)
+        assert bounds == sorted(bounds)
+        assert (np.diff(turned.trail.along) > 0).all()
+        assert {tuple(p) for p in turned.trail.points} == {tuple(p) for p in contour.points}
