@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import pytest
 from benchmarks.outside_metric import two_sided
 from numpy.testing import assert_allclose, assert_array_equal
 
@@ -41,28 +40,31 @@ def ribbon(waves, half, n=150):
     return np.concatenate([np.column_stack([x, low]), np.column_stack([x, high])[::-1]])
 
 
-@pytest.mark.parametrize(
-    ("points", "part"),
-    [
-        (airfoil(0.03, 2.5), 0.008),
-        (airfoil(0.06, 2.5), 0.003),
-        (airfoil(0.09, 2.5), 0.012),
-        (ribbon(7, 0.002), 0.008),
-        (ribbon(11, 0.002), 0.005),
-    ],
-)
-def test_slits_stay_open_for_few_points(points, part):
-    contour = ss.Contour(points, closed=True)
-    tolerance = part * contour.box_diagonal
-    searched = fit_pieces(contour, tolerance)
-    assert crossings(searched, tolerance) > 0  # else no test
-    fit = ss.fit_curve(contour, tolerance=tolerance)
-    assert crossings(fit, tolerance) == self_crossings(contour.polyline) == 0
-    assert fit.kept
-    assert two_sided(fit.curve, points, closed=True, step=tolerance / 10).larger <= tolerance
-    # Cubics err with the fourth power of their length: twice the points are a fit of everything
-    # within a sixteenth of the distance.
-    assert fit.n_stored_points <= 2 * searched.n_stored_points
+SLITS = [
+    *(
+        (airfoil(camber, 2.5), part)
+        for camber in (0.03, 0.06, 0.09)
+        for part in (0.003, 0.008, 0.012)
+    ),
+    *((ribbon(waves, 0.002), part) for waves in (7, 11) for part in (0.005, 0.008)),
+]
+
+
+def test_slits_stay_open_for_few_points():
+    n_crossing = 0
+    for points, part in SLITS:
+        contour = ss.Contour(points, closed=True)
+        tolerance = part * contour.box_diagonal
+        searched = fit_pieces(contour, tolerance)
+        n_crossing += crossings(searched, tolerance) > 0
+        fit = ss.fit_curve(contour, tolerance=tolerance)
+        assert crossings(fit, tolerance) == self_crossings(contour.polyline) == 0
+        assert fit.kept
+        assert two_sided(fit.curve, points, closed=True, step=tolerance / 10).larger <= tolerance
+        # Cubics err with the fourth power of their length: twice the points are a fit of everything
+        # within a sixteenth of the distance.
+        assert fit.n_stored_points <= 2 * searched.n_stored_points
+    assert n_crossing >= 3  # else no test
 
 
 def test_curves_beside_slits_do_not_depend_on_the_first_point():
