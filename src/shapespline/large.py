@@ -28,7 +28,7 @@ from shapespline.knots import check_degree
 from shapespline.large_fit import FootParameters, LargeFit
 from shapespline.outline import GENTLE_TURN, SearchOutline
 from shapespline.passes import Measured, Passes
-from shapespline.point_stream import PointStream, TurnedPoints
+from shapespline.point_stream import PointStream, TurnedRows
 from shapespline.progress import Watch
 from shapespline.stand_in import StandIn
 from shapespline.tolerance import fit_within, tolerance_length
@@ -154,7 +154,7 @@ def fit_all_in_passes(
     elif corners is not None:
         return None
     start, step = canonical_reading(contour.points, closed=contour.closed)
-    stream = PointStream(TurnedPoints(contour.points, start, step))
+    stream = PointStream(TurnedRows(contour.points, start, step))
     passes = Passes(stream, None, in_all=3)
     seen = passes.look()
     longest = LONGEST_CHORD * contour.box_diagonal
@@ -166,12 +166,12 @@ def fit_all_in_passes(
     n = len(contour)
     fit = _fitted(standing, sample, n, tolerance, degree, chosen, form, effort, watch)
     curve = CentredCurve.of(fit.spline, fit.contour)
-    along = np.empty(n)
-    measured = passes.measure(curve, np.split(along, stream.begins[1:-1]))
-    spline, sections, parameters = fit.spline, fit.sections, np.roll(along, start)
+    parameters = np.empty(n)
+    measured = passes.measure(curve, TurnedRows(parameters, start, step))
+    spline, sections = fit.spline, fit.sections
     if step < 0:
         spline, sections = reversed_curve(spline), backwards(sections)
-        parameters = np.roll(1.0 - along[::-1], start + 1)
+        np.subtract(1.0, parameters, out=parameters)
     found = _distances(fit, measured, standing, n)
     return replace(
         fit,

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from shapespline.distance import CentredCurve
-    from shapespline.point_stream import PointStream
+    from shapespline.point_stream import PointStream, TurnedRows
     from shapespline.typing import FloatArray
 
 # Points that corners and noise are judged by.
@@ -84,15 +84,13 @@ class Passes:
             np.concatenate([part.sample for part in found]),
         )
 
-    def measure(
-        self, curve: CentredCurve, parts: Sequence[FloatArray | None] | None = None
-    ) -> Measured:
+    def measure(self, curve: CentredCurve, feet: TurnedRows | None = None) -> Measured:
         """Squared distances from all points to a curve.
 
-        ``parts`` are arrays, one for each chunk, that take the parameters of the feet.
+        ``feet`` are rows in the order of the points that take the parameters of their feet.
         """
-        parts = [None] * len(self.stream) if parts is None else parts
-        found = self.over_all(_measure, [(curve, part) for part in parts])
+        begins = self.stream.begins[:-1]
+        found = self.over_all(_measure, [(curve, feet, begin) for begin in begins])
         return Measured(max(m.largest for m in found), float(np.sum([m.total for m in found])))
 
     def over_all(self, function: Any, arguments: Sequence[tuple[Any, ...]]) -> list[Any]:
@@ -126,8 +124,10 @@ def _look(points: FloatArray, begin: int, stride: int) -> Seen:
     return Seen(low, high, first, last, longest, points[-begin % stride :: stride].copy())
 
 
-def _measure(points: FloatArray, curve: CentredCurve, part: FloatArray | None) -> Measured:
+def _measure(
+    points: FloatArray, curve: CentredCurve, feet: TurnedRows | None, begin: int
+) -> Measured:
     parameters, distances_sq = curve.nearest(points)
-    if part is not None:
-        part[:] = parameters
+    if feet is not None:
+        feet[begin : begin + len(points)] = parameters
     return Measured(float(distances_sq.max()), float(distances_sq.sum()))

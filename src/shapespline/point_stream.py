@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from concurrent.futures import Executor, Future
 
-    from shapespline.typing import FloatArray
+    from shapespline.typing import FloatArray, IntArray
 
-# Points of a chunk: four megabytes, which the caches of a core almost hold and whose handling costs
+# Points of a chunk: two megabytes, which the caches of a core hold and whose handling costs
 # far more than calling for it.
-CHUNK = 1 << 18
+CHUNK = 1 << 17
 # Chunks that are under way at a time: on an executor, and as blocks of a dask array.
 UNDER_WAY = 8
 
@@ -135,23 +135,30 @@ class PointStream:
                 future.cancel()
 
 
-class TurnedPoints:
-    """Points read from another one on, forwards or backwards, without a copy of them.
+class TurnedRows:
+    """Rows of an array from another one on, forwards or backwards, without a copy of them.
+
+    What is set are rows of one number.
 
     Examples
     --------
     >>> points = np.arange(10.0).reshape(5, 2)
-    >>> TurnedPoints(points, 3, 1)[0:3].tolist(), TurnedPoints(points, 1, -1)[1:3].tolist()
+    >>> TurnedRows(points, 3, 1)[0:3].tolist(), TurnedRows(points, 1, -1)[1:3].tolist()
     ([[6.0, 7.0], [8.0, 9.0], [0.0, 1.0]], [[0.0, 1.0], [8.0, 9.0]])
     """
 
-    def __init__(self, points: FloatArray, start: int, step: int) -> None:
-        self._points, self._start, self._step = points, start, step
-        self.shape, self.dtype = points.shape, points.dtype
+    def __init__(self, rows: FloatArray, start: int, step: int) -> None:
+        self._rows, self._start, self._step = rows, start, step
+        self.shape, self.dtype = rows.shape, rows.dtype
 
     def __getitem__(self, part: slice) -> FloatArray:
-        index = self._start + self._step * np.arange(part.start, part.stop)
-        return self._points.take(index, axis=0, mode="wrap")
+        return self._rows.take(self._places(part), axis=0, mode="wrap")
+
+    def __setitem__(self, part: slice, values: FloatArray) -> None:
+        self._rows.put(self._places(part), values, mode="wrap")
+
+    def _places(self, part: slice) -> IntArray:
+        return self._start + self._step * np.arange(part.start, part.stop)
 
 
 def _map_blocks(
