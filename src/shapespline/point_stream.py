@@ -52,9 +52,9 @@ class PointStream:
 
     Examples
     --------
-    >>> stream = PointStream(np.zeros((600_000, 2), dtype=np.float32))
+    >>> stream = PointStream(np.zeros((300_000, 2), dtype=np.float32))
     >>> stream.begins, [len(chunk) for chunk in stream.map(np.asarray)]
-    ([0, 262144, 524288, 600000], [262144, 262144, 75712])
+    ([0, 131072, 262144, 300000], [131072, 131072, 37856])
     """
 
     def __init__(self, points: Any, executor: Executor | None = None) -> None:
