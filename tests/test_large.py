@@ -10,7 +10,9 @@ from benchmarks.outside_metric import two_sided
 from numpy.testing import assert_array_equal
 
 import shapespline as ss
+from shapespline import _kernels
 from shapespline.averaging import averaged, averages, strayed
+from shapespline.frame import _first_in_head, canonical_reading
 from shapespline.point_stream import CHUNK, PointStream
 
 N = 2 * CHUNK + 12_345
@@ -264,3 +266,17 @@ def test_repeated_points_in_memory_have_parameters_too():
         fit = ss.fit_curve(points, closed=True, tolerance=0.1)
     assert len(fit.parameters) == 300_000
     assert_array_equal(fit.parameters[::2], fit.parameters[1::2])
+
+
+def test_where_a_circle_begins_is_found_at_once():
+    t = 2 * np.pi * np.arange(1_000_000) / 1_000_000
+    points = np.column_stack([np.cos(t), np.sin(t)])
+    away = np.empty(len(points))
+    _kernels.mean_distances(points, away)
+    starts = np.flatnonzero(away == away.max())
+    assert len(starts) > 1000  # all of them as far from the mean, to the last bit
+    readings = np.array([(start, step) for start in starts for step in (1, -1)])
+    assert len(_first_in_head(away, readings)) <= 2
+    start, step = canonical_reading(points, closed=True)
+    turned = np.roll(points, 123_456, axis=0)
+    assert canonical_reading(turned, closed=True) == ((start + 123_456) % len(points), step)
