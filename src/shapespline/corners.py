@@ -32,7 +32,7 @@ NOISE_FACTOR = 132.0
 LONGEST_PART = 0.125
 # Neighbours on each side that are averaged for the arc length, until the noise in a difference is
 # this part of a step.
-HALF_WINDOWS = (0, 1, 2, 4, 8, 16, 32)
+HALF_WINDOWS = (1, 2, 4, 8, 16, 32)
 QUIET_STEP = 0.3
 # Of more points every so many-th is looked at first.
 MOST_POINTS = 10_000
@@ -115,14 +115,13 @@ def _stations(contour: Contour, sigma: float) -> FloatArray:
     Noise makes a polyline longer than the outline it stands for. So neighbours are averaged until
     the noise that is left in their differences is small against the steps.
     """
-    steps = np.diff(contour.arc_length)
+    steps, width = np.diff(contour.arc_length), 1
     for half in HALF_WINDOWS:
+        quiet = np.sqrt(2.0) * sigma / width <= QUIET_STEP * np.median(steps)
         width = 2 * half + 1
-        if width > len(contour) // 4:
+        if quiet or width > len(contour) // 4:
             break
         steps = _averaged_steps(contour, half)
-        if np.sqrt(2.0) * sigma / width <= QUIET_STEP * np.median(steps):
-            break
     # Averaging may stall at the ends; a station must not repeat.
     least = 1e-3 * float(steps.mean())
     return np.concatenate([[0.0], np.cumsum(np.maximum(steps, least))])
@@ -157,16 +156,13 @@ def _separated_maxima(
     contour: Contour, turns: FloatArray, stations: FloatArray, apart: float
 ) -> IntArray:
     """Points that turn enough and most within ``apart`` along the outline, the sharpest first."""
-    along, total = stations[: len(contour)], stations[-1]
-
-    def gaps_to(i: int) -> FloatArray:
-        gaps = np.abs(along - along[i])
-        return np.minimum(gaps, total - gaps) if contour.closed else gaps
-
-    chosen: list[int] = []
     enough = np.flatnonzero(turns >= LEAST_TURN)
-    for i in enough[np.argsort(-turns[enough], kind="stable")]:
-        gaps = gaps_to(i)
+    along, turns = stations[enough], turns[enough]
+    chosen: list[int] = []
+    for i in np.argsort(-turns, kind="stable").tolist():
+        gaps = np.abs(along - along[i])
+        if contour.closed:
+            gaps = np.minimum(gaps, stations[-1] - gaps)
         if (gaps[chosen] > apart).all() and turns[i] >= turns[gaps <= apart].max():
-            chosen.append(int(i))
-    return np.array(sorted(chosen), dtype=np.int64)
+            chosen.append(i)
+    return np.sort(enough[chosen])

@@ -62,11 +62,12 @@ def two_sided_distance(curve: BSplineCurve, contour: Contour) -> Distances:
     >>> found.max_distance < 1e-14, round(found.reverse_distance, 3)
     (True, 1.0)
     """
-    found = CentredCurve.of(curve, contour).nearest(contour.points)
+    centred, lost = CentredCurve.of(curve, contour), rounding(curve, contour)
+    found = centred.nearest(contour.points)
     return Distances(
-        float(np.sqrt(found.distances_sq.max())) + rounding(curve, contour),
+        float(np.sqrt(found.distances_sq.max())) + lost,
         float(np.sqrt(found.distances_sq.mean())),
-        reverse_distance(curve, contour),
+        centred.reverse_distance(contour) + lost,
         found.parameters,
     )
 
@@ -85,16 +86,7 @@ def distances_at(curve: BSplineCurve, contour: Contour, parameters: FloatArray) 
 
 def reverse_distance(curve: BSplineCurve, contour: Contour) -> float:
     """Certified bound of the distance from the curve to the data polyline."""
-    centred, middle = CentredCurve.of(curve, contour)
-    _, reverse, _ = _kernels.curve_deviation(
-        centred.knots,
-        centred.degree,
-        centred.coefficients,
-        np.ascontiguousarray(contour.polyline - middle),
-        RELATIVE_GAP,
-        FLOOR * contour.box_diagonal,
-    )
-    return float(reverse) + rounding(curve, contour)
+    return CentredCurve.of(curve, contour).reverse_distance(contour) + rounding(curve, contour)
 
 
 class CentredCurve(NamedTuple):
@@ -113,6 +105,18 @@ class CentredCurve(NamedTuple):
     def nearest(self, points: FloatArray) -> Nearest:
         """Nearest points of the curve, as `nearest` finds them."""
         return nearest(self.moved, points - self.middle)
+
+    def reverse_distance(self, contour: Contour) -> float:
+        """Bound of the distance to the data polyline, but for rounding."""
+        _, reverse, _ = _kernels.curve_deviation(
+            self.moved.knots,
+            self.moved.degree,
+            self.moved.coefficients,
+            contour.polyline - self.middle,
+            RELATIVE_GAP,
+            FLOOR * contour.box_diagonal,
+        )
+        return float(reverse)
 
 
 def rounding(curve: BSplineCurve, contour: Contour) -> float:

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise, starmap
+from math import dist
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
@@ -90,6 +92,11 @@ class Piece(NamedTuple):
     degree: int
     knots: FloatArray
     control_points: FloatArray
+
+    @property
+    def polygon_length(self) -> float:
+        """Length of the control polygon."""
+        return sum(starmap(dist, pairwise(self.control_points.tolist())))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

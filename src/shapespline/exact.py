@@ -7,7 +7,6 @@ be written in every format as they are, compared, drawn, and fitted again throug
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -136,6 +135,15 @@ def sampled(spline: BSplineCurve, sampling: float | None = None) -> tuple[Contou
     """Points on a curve so dense that the chords stay within ``sampling``, and their parameters.
 
     1e-4 of the box diagonal when none is given, and never more than 1e-2 of it.
+    """
+    points, parameters = chords(spline, sampling)
+    contour = Contour.silently(points, closed=bool((points[0] == points[-1]).all()))
+    first = np.unique(contour.source, return_index=True)[1]
+    return contour, parameters[first]
+
+
+def chords(spline: BSplineCurve, sampling: float | None = None) -> tuple[FloatArray, FloatArray]:
+    """The same points before they are a contour, the last one where the curve ends.
 
     Every Bezier piece is cut at equal steps of its parameter. A chord over a step h strays from
     the curve by no more than h^2 / 8 times the largest second derivative, and that is bounded by
@@ -165,17 +173,15 @@ def sampled(spline: BSplineCurve, sampling: float | None = None) -> tuple[Contou
             f" size of {diagonal:.6g}; raise it"
         )
     counts = np.maximum(1, np.ceil(wanted)).astype(np.int64)
-    inner = [
-        np.linspace(begin, end, count, endpoint=False)
-        for (begin, end), count in zip(pairwise(breakpoints.tolist()), counts, strict=True)
-    ]
-    parameters = np.concatenate([*inner, breakpoints[-1:]])
+    starts = np.concatenate([[0], np.cumsum(counts)])
+    index = np.arange(starts[-1]) - np.repeat(starts[:-1], counts)
+    inner = np.repeat(breakpoints[:-1], counts) + index * np.repeat(
+        np.diff(breakpoints) / counts, counts
+    )
+    parameters = np.concatenate([inner, breakpoints[-1:]])
     points = spline(parameters)
     # Where pieces meet the ends are known exactly.
-    starts = np.concatenate([[0], np.cumsum(counts)])
     points[starts[:-1]], points[-1] = beziers[:, 0], beziers[-1, -1]
     if spline.periodic:  # knot insertion may miss it by a rounding
         points[-1] = points[0]
-    contour = Contour.silently(points, closed=bool((points[0] == points[-1]).all()))
-    first = np.unique(contour.source, return_index=True)[1]
-    return contour, parameters[first]
+    return points, parameters

@@ -185,6 +185,8 @@ def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
 def _first_in_head(away: FloatArray, readings: IntArray) -> list[tuple[int, int]]:
     """The readings that are first by their first few distances: of a circle many start alike."""
     for k in range(HEAD):
+        if len(readings) == 1:
+            break
         at = (readings[:, 0] + k * readings[:, 1]) % len(away)
         readings = readings[away[at] == away[at].min()]
     return [(int(start), int(step)) for start, step in readings]

@@ -8,8 +8,8 @@ parameter intervals are chosen so that the speeds agree too, the curve is C1 and
 from __future__ import annotations
 
 from functools import cache
-from itertools import combinations, pairwise
-from math import comb
+from itertools import accumulate, combinations, pairwise
+from math import atan2, comb, hypot
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,9 +39,21 @@ def turn_between(before: Piece, after: Piece) -> float:
     >>> round(float(np.degrees(turn_between(right, up))), 6)
     90.0
     """
-    u = before.control_points[-1] - before.control_points[-2]
-    v = after.control_points[1] - after.control_points[0]
-    return float(np.arctan2(u[0] * v[1] - u[1] * v[0], u @ v))
+    (ux, uy), (vx, vy) = _last_leg(before), _first_leg(after)
+    return atan2(ux * vy - uy * vx, ux * vx + uy * vy)
+
+
+# Numbers, not arrays: of a glyph's pieces each is looked at several times.
+def _first_leg(piece: Piece) -> tuple[float, float]:
+    """The way from the first control point to the second."""
+    (ax, ay), (bx, by) = piece.control_points[:2].tolist()
+    return bx - ax, by - ay
+
+
+def _last_leg(piece: Piece) -> tuple[float, float]:
+    """The way from the last control point but one to the last."""
+    (ax, ay), (bx, by) = piece.control_points[-2:].tolist()
+    return bx - ax, by - ay
 
 
 def backwards(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
@@ -80,24 +92,24 @@ def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
     raised = [elevated(piece, degree) for piece in pieces]
     smooth = [False] + [_c1_possible(a, b) for a, b in pairwise(raised)]
     widths = _interval_widths(raised, smooth)
-    ends = np.concatenate([[0.0], np.cumsum(widths)]) / sum(widths)
+    total = sum(widths)
+    ends = [along / total for along in accumulate(widths, initial=0.0)]
     ends[-1] = 1.0
-    knots, points = [np.zeros(degree + 1)], [raised[0].control_points[:1]]
+    knots, points = [0.0] * (degree + 1), [raised[0].control_points[:1]]
     for i, piece in enumerate(raised):
-        inner = piece.knots[degree + 1 : -degree - 1]
+        inner = piece.knots[degree + 1 : -degree - 1].tolist()
         last = i == len(raised) - 1
         drop = 0 if last else int(smooth[i + 1])
-        knots.append(ends[i] + inner * (ends[i + 1] - ends[i]))
-        knots.append(np.full(degree + 1 if last else degree - drop, ends[i + 1]))
+        knots += [ends[i] + u * (ends[i + 1] - ends[i]) for u in inner]
+        knots += [ends[i + 1]] * (degree + 1 if last else degree - drop)
         points.append(piece.control_points[1 : len(piece.control_points) - drop])
-    return BSplineCurve(np.concatenate(knots), np.concatenate(points), degree)
+    return BSplineCurve(knots, np.concatenate(points), degree)
 
 
 def _c1_possible(before: Piece, after: Piece) -> bool:
     """Whether a common tangent and bounded intervals allow the same speed on both sides."""
-    u = np.hypot(*(before.control_points[-1] - before.control_points[-2]))
-    v = np.hypot(*(after.control_points[1] - after.control_points[0]))
-    return bool(
+    u, v = hypot(*_last_leg(before)), hypot(*_first_leg(after))
+    return (
         before.degree > 1
         and abs(turn_between(before, after)) < EXACT
         and u < LARGEST_RATIO * v
@@ -112,12 +124,11 @@ def _interval_widths(pieces: Sequence[Piece], smooth: Sequence[bool]) -> list[fl
         if smooth[i]:
             before, degree = pieces[i - 1], piece.degree
             gap_before = widths[-1] * (before.knots[-degree - 1] - before.knots[-degree - 2])
-            u = np.hypot(*(before.control_points[-1] - before.control_points[-2]))
-            v = np.hypot(*(piece.control_points[1] - piece.control_points[0]))
-            width = gap_before * v / u / (piece.knots[degree + 1] - piece.knots[degree])
+            u, v = hypot(*_last_leg(before)), hypot(*_first_leg(piece))
+            gap = piece.knots[degree + 1] - piece.knots[degree]
+            widths.append(float(gap_before * v / u / gap))
         else:
-            width = np.hypot(*np.diff(piece.control_points, axis=0).T).sum()
-        widths.append(float(width))
+            widths.append(piece.polygon_length)
     return widths
 
 
@@ -130,11 +141,12 @@ def elevated(piece: Piece, degree: int) -> Piece:
     p = piece.degree
     if p == degree:
         return piece
-    breakpoints, counts = np.unique(piece.knots, return_counts=True)
-    knots = np.repeat(breakpoints, counts + degree - p)
-    if len(breakpoints) == 2:
+    if len(piece.control_points) == p + 1:
+        knots = np.repeat(piece.knots[[0, -1]], degree + 1)
         points = _elevation_matrix(p, degree) @ piece.control_points
         return Piece("bezier", degree, knots, points)
+    breakpoints, counts = np.unique(piece.knots, return_counts=True)
+    knots = np.repeat(breakpoints, counts + degree - p)
     points = np.empty((len(knots) - degree - 1, 2))
     for i in range(len(points)):
         # Any span of the support will do: the first that is not empty.

@@ -15,6 +15,10 @@ HALF_WINDOW = 3
 MOST_WINDOWS = 5_000
 # Of fewer points nobody can tell noise from bends.
 FEWEST_POINTS = 64
+# A cubic fitted to a window: its slope in the middle, and what is left of every point.
+_POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
+_FIT = np.linalg.pinv(_POWERS)
+_SLOPE_AND_REST = np.column_stack([_FIT[-2], np.eye(len(_POWERS)) - _POWERS @ _FIT])
 # Median of a chi-squared variable with the 3 degrees of freedom that a cubic leaves of 7 points.
 _CHI_SQUARED_MEDIAN = 2.365974
 
@@ -40,16 +44,12 @@ def noise_level(contour: Contour) -> float:
     width = 2 * HALF_WINDOW + 1
     if len(contour) < FEWEST_POINTS:
         return known
-    powers = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
-    fit = np.linalg.pinv(powers)
     n = len(contour)
     first, n_windows = (-HALF_WINDOW, n) if contour.closed else (0, n - width + 1)
     begins = np.arange(first, first + n_windows, max(1, n_windows // MOST_WINDOWS))
     index = (begins[:, None] + np.arange(width)) % n
-    windows = (contour.points[index] - contour.points[0]).swapaxes(1, 2)
-    tangents = windows @ fit[-2]
-    left = windows @ (np.eye(width) - powers @ fit)
-    across = left[:, 0] * tangents[:, 1, None] - left[:, 1] * tangents[:, 0, None]
-    speed_sq = np.maximum((tangents**2).sum(axis=1), np.finfo(float).tiny)
+    x, y = ((axis - axis[0])[index] @ _SLOPE_AND_REST for axis in contour.points.T)
+    across = x[:, 1:] * y[:, :1] - y[:, 1:] * x[:, :1]
+    speed_sq = np.maximum(x[:, 0] ** 2 + y[:, 0] ** 2, np.finfo(float).tiny)
     level_sq = float(np.median((across**2).sum(axis=1) / speed_sq)) / _CHI_SQUARED_MEDIAN
     return max(known, float(np.sqrt(level_sq)))

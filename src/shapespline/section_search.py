@@ -138,7 +138,7 @@ def _unpacked(
 
 def _without_specks(pieces: list[Piece]) -> tuple[Piece, ...]:
     """The pieces but for those of next to no length, whose neighbours then meet exactly."""
-    lengths = [float(np.hypot(*np.diff(p.control_points, axis=0).T).sum()) for p in pieces]
+    lengths = [piece.polygon_length for piece in pieces]
     least = SPECK * sum(lengths)
     kept = [p for p, length in zip(pieces, lengths, strict=True) if length > least]
     if len(kept) < len(pieces):

@@ -297,16 +297,22 @@ def verified_pieces(
         for i in range(0 if contour.closed else 1, len(pieces))
         if abs(turn_between(pieces[i - 1], pieces[i])) > SHARP_TURN
     ]
-    nearest = {int(((contour.points - node) ** 2).sum(axis=1).argmin()) for node in sharp}
     return PiecesResult(
         pieces=pieces,
         spline=spline,
-        corners=np.array(sorted(nearest), dtype=np.int64),
+        corners=_nearest_points(contour, sharp),
         distances=two_sided_distance(spline, contour),
         tolerance=tolerance,
         closed=contour.closed,
         tangent_error=_tangent_error(pieces, held),
     )
+
+
+def _nearest_points(contour: Contour, nodes: Sequence[FloatArray]) -> IntArray:
+    """Indices of the points nearest to some places, sorted, each once."""
+    x, y = np.ascontiguousarray(contour.points.T)
+    nearest = {int(((x - a) ** 2 + (y - b) ** 2).argmin()) for a, b in nodes}
+    return np.array(sorted(nearest), dtype=np.int64)
 
 
 def _tangent_error(pieces: Sequence[Piece], held: Held) -> float:

@@ -84,10 +84,14 @@ def find_mirror(contour: Contour) -> Mirror | None:
     ([0.0, 1.0], True)
     """
     length, centre = contour.length, _centre(contour)
+    # Three laps: what is asked for lies less than one beside the middle one.
+    x, y = (contour.points - centre).T
+    lap, stations = x + 1j * y, contour.arc_length[:-1]
+    laps = np.concatenate([lap, lap, lap, lap[:1]])
+    along = np.concatenate([stations - length, stations, stations + length, [2.0 * length]])
 
     def at(s: FloatArray) -> NDArray[np.complex128]:
-        points = contour.at(s % length) - centre
-        return points[:, 0] + 1j * points[:, 1]
+        return np.array(np.interp(s, along, laps))
 
     step = float(length / SAMPLES)
     z = at(step * np.arange(SAMPLES, dtype=np.float64))

@@ -9,7 +9,7 @@ import numpy as np
 
 from shapespline.curve import BSplineCurve
 from shapespline.drawing import Piece
-from shapespline.exact import sampled
+from shapespline.exact import chords
 from shapespline.footpoint import nearest
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ def located(
         cuts.append(low + _cut(before, after, trail.points[low : int(high)], tolerance))
     cuts.append(count)
     return tuple(
-        Part(piece, sampled(curve, SAMPLING_PART * tolerance)[0].polyline, first + i, first + k)
+        Part(piece, chords(curve, SAMPLING_PART * tolerance)[0], first + i, first + k)
         for piece, curve, (i, k) in zip(pieces, curves, pairwise(cuts), strict=True)
     )
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from shapespline.contour import Contour
 from shapespline.crossings import crossing_pairs, self_crossings
-from shapespline.exact import sampled
+from shapespline.exact import chords
 from shapespline.footpoint import nearest
 from shapespline.joining import joined, turn_between
 from shapespline.slits import Sides, moved
@@ -105,7 +105,7 @@ def uncrossed(contours: Sequence[Contour], fits: Sequence[Fit], refit: Refit) ->
 
 def _line(fit: Fit) -> FloatArray:
     """A fit as a polyline."""
-    return sampled(fit.spline, SAMPLING_PART * fit.tolerance)[0].polyline
+    return chords(fit.spline, SAMPLING_PART * fit.tolerance)[0]
 
 
 def _verified(row: Row) -> Fit:

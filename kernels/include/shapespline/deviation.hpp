@@ -39,7 +39,8 @@ class DeviationSearch {
     }
 
   private:
-    static constexpr int kFirstLook = 16, kMaxDepth = 48;
+    // Lines come many at a time, as polylines, and bend nowhere between their ends.
+    static constexpr int kFirstLook = Degree == 1 ? 1 : 16, kMaxDepth = 48;
 
     void look(const Bezier<Degree> &piece, double s) {
         const auto near = polyline_.nearest(piece.at(s).point, hint_);
