@@ -246,8 +246,8 @@ NB_MODULE(_kernels, m) {
     m.def(
         "fit_sections",
         [](In2 points, bool closed, InIndices joint, InIndices forced, InIndices gentle,
-           std::int64_t stride, double resolution, double tolerance, int largest_degree,
-           bool smooth, bool ends_fixed, double least_corner, int passes, int widest,
+           std::int64_t stride, double resolution, std::int64_t every, double tolerance,
+           int largest_degree, bool smooth, bool ends_fixed, double least_corner, int passes, int widest,
            nb::object ask,
            std::optional<In2> observed, double noise) {
             ss::Interruption asking = interruption(ask);
@@ -257,7 +257,7 @@ NB_MODULE(_kernels, m) {
                 stride, resolution);
             std::vector<std::int64_t> degrees, counts;
             std::vector<double> knots, coordinates;
-            auto sections = outline.search(tolerance, largest_degree, smooth, ends_fixed,
+            auto sections = outline.search(tolerance, every, largest_degree, smooth, ends_fixed,
                                            least_corner, passes, widest, asking);
             if (observed)
                 sections = ss::fit_observed(vectors(*observed), closed, std::move(sections), noise);
@@ -270,7 +270,8 @@ NB_MODULE(_kernels, m) {
             return std::make_tuple(degrees, counts, knots, coordinates);
         },
         "points"_a.noconvert(), "closed"_a, "joint"_a.noconvert(),
-        "forced"_a.noconvert(), "gentle"_a.noconvert(), "stride"_a, "resolution"_a, "tolerance"_a,
+        "forced"_a.noconvert(), "gentle"_a.noconvert(), "stride"_a, "resolution"_a, "every"_a,
+        "tolerance"_a,
         "largest_degree"_a,
         "smooth"_a, "ends_fixed"_a, "least_corner"_a, "passes"_a, "widest"_a, "ask"_a,
         "observed"_a.none().noconvert() = nb::none(), "noise"_a = 0.0);

@@ -127,6 +127,7 @@ def fit_sections(
     gentle: IntArray,  # (n,), 0 or 1
     stride: int,
     resolution: float,
+    every: int,
     tolerance: float,
     largest_degree: int,  # 1 to 3
     smooth: bool,

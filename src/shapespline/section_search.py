@@ -39,12 +39,14 @@ class Search(NamedTuple):
     """What one run of the kernel may do.
 
     ``stride`` is the distance of candidate nodes in points, but more of them stand where the
-    polyline through them would leave the data by ``resolution`` tolerances; ``passes`` how often
-    all moves are tried; ``widest`` how many neighbours they take along.
+    polyline through them would leave the data by ``resolution`` tolerances; how far sections reach
+    is found from ``every`` so many-th of them; ``passes`` is how often all moves are tried,
+    ``widest`` how many neighbours they take along.
     """
 
     stride: int
     resolution: float
+    every: int
     passes: int
     widest: int
 
@@ -52,10 +54,10 @@ class Search(NamedTuple):
 # The reduction is a greedy search, and where it starts is worth some percent: the best of several
 # runs on different candidates is taken.
 SEARCHES: dict[Effort, tuple[Search, ...]] = {
-    "fast": (Search(12, 0.8, 1, 1),),
-    "balanced": (Search(12, 0.4, 6, 2),),
+    "fast": (Search(12, 0.8, 5, 1, 1),),
+    "balanced": (Search(12, 0.4, 1, 6, 2),),
     "smallest": tuple(
-        Search(stride, part, 6, 2) for stride in (3, 6, 12) for part in (0.15, 0.25, 0.4)
+        Search(stride, part, 1, 6, 2) for stride in (3, 6, 12) for part in (0.15, 0.25, 0.4)
     ),
 }
 
@@ -103,6 +105,7 @@ class SectionSearch(NamedTuple):
             outline.gentle,
             max(min(search.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
             search.resolution * tolerance,
+            search.every,
             tolerance,
             self.largest_degree,
             self.smooth,

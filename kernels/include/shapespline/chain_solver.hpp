@@ -133,7 +133,8 @@ class ChainSolver {
             for (const std::size_t g : at)
                 if (g != kNone) first_column[g] = std::min(first_column[g], lowest);
         }
-        empty_ = EnvelopeMatrix(std::move(first_column));
+        matrix_ = EnvelopeMatrix(std::move(first_column));
+        factor_ = matrix_;
         step_.resize(next);
         scale_.resize(next);
         least_.resize(next);
@@ -180,7 +181,7 @@ class ChainSolver {
 
     void assemble(ChainState &state, const ChainWeights &weights, double damping,
                   bool eliminate) {
-        matrix_ = empty_;
+        matrix_.clear();
         std::fill(gradient_.begin(), gradient_.end(), 0.0);
         for (std::size_t s = 0; s < model_.size(); ++s) {
             const Index base = model_.base();
@@ -192,10 +193,12 @@ class ChainSolver {
             for (std::size_t i = 0; i < normal_.size(); ++i) {
                 if (unknown[i] == kNone) continue;
                 gradient_[unknown[i]] += normal_.gradient(i);
-                const std::size_t first = matrix_.first_column(unknown[i]);
-                for (std::size_t j = 0; j < normal_.size(); ++j)
-                    if (unknown[j] >= first && unknown[j] <= unknown[i])
-                        matrix_.at(unknown[i], unknown[j]) += normal_.matrix(i, j);
+                for (std::size_t j = 0; j <= i; ++j) {
+                    if (unknown[j] == kNone) continue;
+                    const auto [column, row] = std::minmax(unknown[i], unknown[j]);
+                    if (column >= matrix_.first_column(row))
+                        matrix_.at(row, column) += normal_.matrix(i, j);
+                }
             }
         }
         for (std::size_t i = 0; i <= model_.size(); ++i) add_node(state, weights, i);
@@ -251,7 +254,7 @@ class ChainSolver {
 
     // The damped step, -(A + damping S)^-1 g, S the scale of the unknowns.
     bool solve(double damping) {
-        factor_ = matrix_;
+        factor_.take_values(matrix_);
         for (std::size_t i = 0; i < gradient_.size(); ++i) {
             factor_.at(i, i) += damping * scale_[i] + least_[i];
             step_[i] = -gradient_[i];
@@ -309,7 +312,7 @@ class ChainSolver {
     ChainState shape_only_ = model_.initial_state();
     SectionNormal normal_;
     std::vector<std::vector<std::size_t>> unknown_;
-    EnvelopeMatrix empty_{std::vector<std::size_t>{}}, matrix_ = empty_, factor_ = empty_;
+    EnvelopeMatrix matrix_{std::vector<std::size_t>{}}, factor_ = matrix_;
     std::vector<bool> is_abscissa_;  // x of a point, whose y is the next unknown
     std::vector<double> gradient_, step_, scale_, least_;
     ChainState trial_;

@@ -29,6 +29,11 @@ class EnvelopeMatrix {
         return values_[offset_[row] + column - first_[row]];
     }
 
+    // Those of a matrix with the same envelope.
+    void take_values(const EnvelopeMatrix &other) {
+        std::copy(other.values_.begin(), other.values_.end(), values_.begin());
+    }
+
     void clear() { std::fill(values_.begin(), values_.end(), 0.0); }
 
     // Replaces the matrix by its Cholesky factor; false if it is not positive definite.

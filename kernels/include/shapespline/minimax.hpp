@@ -51,7 +51,7 @@ class MinimaxFit {
 
     MinimaxResult run() {
         model_.project(state_, 3);
-        int stalls = 0;
+        int stalls = 0, strays = 0;
         for (int round = 0; round < limits_.rounds; ++round) {
             // A start that is good enough, or far too bad, needs no more.
             if (round > 0 || !started_)
@@ -64,8 +64,11 @@ class MinimaxFit {
             }
             stalls = measure < 0.995 * best_ ? 0 : stalls + 1;
             if (measure < best_) keep_if_better(measure);
+            strays += !kept_ && measure <= limits_.tolerance;
             const double distance = largest_distance();
-            if (kept_ || hopeless(round) || stalls >= kMostStalls || !(distance > 1e-12)) break;
+            if (kept_ || hopeless(round) || stalls >= kMostStalls || strays >= kMostStrays ||
+                !(distance > 1e-12))
+                break;
             if (round > 0 || !started_) reweight(distance);
         }
         if (model_.thinned()) model_.activate_all(best_state_);
@@ -101,6 +104,9 @@ class MinimaxFit {
     static constexpr double kNodeWeight = 0.1, kLeastDataWeight = 1e-4, kLeastNodeWeight = 1e-2;
     static constexpr double kJointWeight = 0.2, kJointGrowth = 1.3, kJointAngle = 2.0 / 57.3;
     static constexpr int kMostStalls = 5;
+    // Where all data are within the tolerance but the curve between them is not, other weights of
+    // the data seldom help.
+    static constexpr int kMostStrays = 2;
     // The squared bound of a start that has not converged may be too large by this factor.
     static constexpr double kStartSlack = 9.0;
     static constexpr double kSlack = 20.0;

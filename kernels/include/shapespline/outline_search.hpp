@@ -17,6 +17,7 @@ struct OutlineSearch {
     std::vector<Joint> nodes;  // of each candidate
     std::span<const Index> gentle;  // of each datum of a lap: whether the data hardly turn there
     double tolerance;
+    Index every;  // so many-th candidate is looked from
     int largest_degree;
     bool smooth;      // joints that are no corners are tangent
     bool ends_fixed;  // an open outline begins and ends in its first and last datum
@@ -70,7 +71,7 @@ struct OutlineSearch {
         std::vector<std::size_t> barrier(n, n - 1);
         for (std::size_t k = n - 1; k-- > 0;)
             barrier[k] = nodes[k + 1].barred() ? k + 1 : barrier[k + 1];
-        const ReachSearch search(data, candidates, tolerance, largest_degree);
+        const ReachSearch search(data, candidates, tolerance, largest_degree, every);
         std::vector<Reach> reaches;
         for (int cost = 1; cost <= largest_degree; ++cost)
             reaches.push_back(search.run(cost, barrier, interruption));
@@ -86,7 +87,7 @@ struct OutlineSearch {
         const Section start = blank_section(data, first, last, data[first], data[last], cost,
                                             largest_degree);
         if (cost > 1) return fit_section(data, start, {tolerance, kPathRounds});
-        const ReachSearch search(data, candidates, tolerance, largest_degree);
+        const ReachSearch search(data, candidates, tolerance, largest_degree, every);
         return {search.fits(1, first, last), 0.0, {start}};
     }
 
@@ -189,11 +190,11 @@ class LaidOutOutline {
         if (closed) add(once[0] + 3 * n_);
     }
 
-    std::vector<Section> search(double tolerance, int largest_degree, bool smooth, bool ends_fixed,
-                                double least_corner, int passes, int widest,
+    std::vector<Section> search(double tolerance, Index every, int largest_degree, bool smooth,
+                                bool ends_fixed, double least_corner, int passes, int widest,
                                 Interruption &interruption) const {
         return OutlineSearch{data_,     closed_ ? n_ : 0, candidates_, nodes_,       gentle_,
-                             tolerance, largest_degree,   smooth,      ends_fixed,
+                             tolerance, every,            largest_degree, smooth,    ends_fixed,
                              least_corner,
                              {tolerance, largest_degree, smooth, passes, widest},
                              interruption}

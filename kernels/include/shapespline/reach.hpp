@@ -24,15 +24,19 @@ struct Reach {
 
 class ReachSearch {
   public:
+    // How far curves reach is found from every so many-th candidate, and where no section may
+    // reach across.
     ReachSearch(std::span<const Vec2> data, const Candidates &candidates, double tolerance,
-                int largest_degree)
+                int largest_degree, Index every)
         : data_(data),
           candidates_(candidates),
           limits_{tolerance, kRounds},
-          largest_degree_(largest_degree) {}
+          largest_degree_(largest_degree),
+          every_(static_cast<std::size_t>(every)) {}
 
     // Feasibility is nearly monotone: what starts later reaches at least as far. So the search
-    // starts at the last answer, gallops and bisects: about 1.5 fits a candidate.
+    // starts at the last answer, gallops and bisects: about 1.5 fits a candidate. A start that is
+    // passed over reaches as far as the one before.
     // Ended early, what is left reaches as far as anything might.
     Reach run(int cost, const std::vector<std::size_t> &barrier,
               Interruption &interruption) const {
@@ -42,6 +46,10 @@ class ReachSearch {
         for (std::size_t k = 0; k < n_starts; ++k) {
             if (interruption.ends([] { return 0; })) break;
             last = std::max(last, k + 1);
+            if (cost > 1 && k % every_ != 0 && barrier[k - 1] != k) {
+                reach.last[k] = last;
+                continue;
+            }
             // A section of a whole lap would begin and end in one node, a line even without length.
             const std::size_t lap = candidates_.closed ? n_starts - 1 : n_starts;
             const std::size_t top = std::min({n - 1, k + lap, barrier[k]});
@@ -93,6 +101,7 @@ class ReachSearch {
     const Candidates &candidates_;
     MinimaxLimits limits_;
     int largest_degree_;
+    std::size_t every_;
 };
 
 }  // namespace shapespline

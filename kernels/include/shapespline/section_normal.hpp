@@ -2,8 +2,8 @@
 //
 // Each parameter meets only its own residual r, so it is eliminated exactly: what is left of a
 // point is W = I - T T' / (|T|^2 (1 + damping)), T the tangent (METHOD 4). On a span the curve is
-// a cubic in v, and so is its derivative with respect to a knot: moments of W v^q (q to 6) and
-// W r v^q (q to 3) serve all unknowns, and points are visited once.
+// a polynomial in v, and so is its derivative with respect to a knot: moments of W v^q and W r v^q
+// serve all unknowns, and points are visited once.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@ class SectionNormal {
   public:
     // Local unknowns: x and y of every control point, then the interior knots.
     std::size_t size() const { return size_; }
+    // An entry of the lower triangle: j <= i.
     double matrix(std::size_t i, std::size_t j) const { return matrix_[i * size_ + j]; }
     double gradient(std::size_t i) const { return gradient_[i]; }
 
@@ -30,33 +31,40 @@ class SectionNormal {
         size_ = 2 * section.n_points + n_knots;
         matrix_.assign(size_ * size_, 0.0);
         gradient_.assign(size_, 0.0);
-        moments_.assign(section.n_spans(), {});
-        for (const Index at : active) {
-            const Index j = at - base;
-            add_point(moments_[feet.spans[j]], spans[feet.spans[j]], data[j], weights[j],
-                      feet.parameters[j], damping, eliminate);
-        }
-        for (std::size_t s = 0; s < section.n_spans(); ++s) {
-            columns_.clear();
-            add_point_columns(section, taylor[s], s);
-            if (n_knots > 0) add_knot_columns(section, taylor[s], s);
-            scatter(moments_[s]);
-        }
+        const auto run = [&]<int Degree>() {
+            moments_.assign(section.n_spans(), {});
+            for (const Index at : active) {
+                const Index j = at - base;
+                add_datum<Degree>(moments_[feet.spans[j]], spans[feet.spans[j]], data[j],
+                                  weights[j], feet.parameters[j], damping, eliminate);
+            }
+            for (std::size_t s = 0; s < section.n_spans(); ++s) {
+                add_points<Degree>(taylor[s], s);
+                if (n_knots > 0) add_knots<Degree>(section, taylor[s], s);
+            }
+        };
+        if (section.degree == 1) run.template operator()<1>();
+        if (section.degree == 2) run.template operator()<2>();
+        if (section.degree == 3) run.template operator()<3>();
     }
 
   private:
-    static constexpr int kPowers = 2 * kSectionTerms - 1;
+    // Rows of a length that processors add at once; the last number of some stays unused.
+    static constexpr int kPowers = 2 * kSectionTerms;
+    using Powers = std::array<double, kPowers>;
+    using Terms = std::array<double, kSectionTerms>;
     struct Moments {
-        std::array<double, kPowers> xx, xy, yy;
-        std::array<double, kSectionTerms> x, y;
+        Powers xx, xy, yy;
+        Terms x, y;
     };
-    // How the polynomial of the span changes with one unknown.
+    // How the polynomial of the span changes with one knot.
     struct Column {
         std::size_t unknown;
-        std::array<double, kSectionTerms> x, y;
+        Terms x, y;
     };
 
-    static void add_point(Moments &m, const SpanPolynomial &span, Vec2 q, double weight,
+    template <int Degree>
+    static void add_datum(Moments &m, const SpanPolynomial &span, Vec2 q, double weight,
                           double parameter, double damping, bool eliminate) {
         const double v = parameter - span.begin;
         const Vec2 t = span.velocity(v), r = span.point(v) - q;
@@ -65,73 +73,101 @@ class SectionNormal {
         const double wxx = (1.0 - t.x * t.x * h) * weight, wxy = -t.x * t.y * h * weight,
                      wyy = (1.0 - t.y * t.y * h) * weight;
         const double wx = (r.x - t.x * along) * weight, wy = (r.y - t.y * along) * weight;
-        double power = 1.0;
-        for (int k = 0; k < kPowers; ++k) {
-            m.xx[k] += wxx * power;
-            m.xy[k] += wxy * power;
-            m.yy[k] += wyy * power;
-            if (k < kSectionTerms) {
-                m.x[k] += wx * power;
-                m.y[k] += wy * power;
-            }
-            power *= v;
-        }
+        constexpr int n_powers = 2 * (Degree + 1), n_terms = Degree == 2 ? 4 : Degree + 1;
+        Powers power{1.0, v};
+        for (int k = 2; k < n_powers; ++k) power[k] = power[k / 2] * power[k - k / 2];
+        for (int k = 0; k < n_powers; ++k) m.xx[k] += wxx * power[k];
+        for (int k = 0; k < n_powers; ++k) m.xy[k] += wxy * power[k];
+        for (int k = 0; k < n_powers; ++k) m.yy[k] += wyy * power[k];
+        for (int k = 0; k < n_terms; ++k) m.x[k] += wx * power[k];
+        for (int k = 0; k < n_terms; ++k) m.y[k] += wy * power[k];
     }
 
-    void add_point_columns(const SectionView &section, const BasisTaylor &taylor, std::size_t s) {
-        for (int l = 0; l <= section.degree; ++l) {
-            Column x{2 * (s + l), {}, {}}, y{2 * (s + l) + 1, {}, {}};
-            for (int q = 0; q < kSectionTerms; ++q) x.x[q] = y.y[q] = taylor[q][l];
-            columns_.push_back(x);
-            columns_.push_back(y);
+    void add(std::size_t i, std::size_t j, double value) { matrix_[i * size_ + j] += value; }
+
+    template <int Degree>
+    void add_points(const BasisTaylor &taylor, std::size_t s) {
+        const Moments &m = moments_[s];
+        for (int l = 0; l <= Degree; ++l) {
+            Terms xx{}, xy{}, yy{};
+            double slope_x = 0.0, slope_y = 0.0;
+            for (int r = 0; r <= Degree; ++r) {
+                const double b = taylor[r][l];
+                slope_x += b * m.x[r];
+                slope_y += b * m.y[r];
+                for (int q = 0; q <= Degree; ++q) {
+                    xx[q] += m.xx[q + r] * b;
+                    xy[q] += m.xy[q + r] * b;
+                    yy[q] += m.yy[q + r] * b;
+                }
+            }
+            const std::size_t row = 2 * (s + l);
+            gradient_[row] += slope_x;
+            gradient_[row + 1] += slope_y;
+            for (int other = 0; other <= l; ++other) {
+                double sum_xx = 0.0, sum_xy = 0.0, sum_yy = 0.0;
+                for (int q = 0; q <= Degree; ++q) {
+                    sum_xx += taylor[q][other] * xx[q];
+                    sum_xy += taylor[q][other] * xy[q];
+                    sum_yy += taylor[q][other] * yy[q];
+                }
+                const std::size_t column = 2 * (s + other);
+                add(row, column, sum_xx);
+                add(row + 1, column, sum_xy);
+                if (other < l) add(row, column + 1, sum_xy);
+                add(row + 1, column + 1, sum_yy);
+            }
         }
     }
 
     // Knots by difference quotients of the span's basis, its origin held; exact enough, for the
     // basis is a rational function of the knots and the step is 1e-5 of the gaps beside them.
-    void add_knot_columns(const SectionView &section, const BasisTaylor &taylor, std::size_t s) {
-        const std::size_t p = section.degree;
-        knots_.assign(section.knots, section.knots + section.n_points + p + 1);
-        for (std::size_t i = std::max(p + 1, s + 1); i < std::min(section.n_points, s + 2 * p + 1);
-             ++i) {
+    template <int Degree>
+    void add_knots(const SectionView &section, const BasisTaylor &taylor, std::size_t s) {
+        columns_.clear();
+        knots_.assign(section.knots, section.knots + section.n_points + Degree + 1);
+        for (std::size_t i = std::max<std::size_t>(Degree + 1, s + 1);
+             i < std::min<std::size_t>(section.n_points, s + 2 * Degree + 1); ++i) {
             const double u = knots_[i];
             const double step = 1e-5 * std::min(knots_[i + 1] - u, u - knots_[i - 1]) + 1e-12;
             knots_[i] = u + step;
             const BasisTaylor moved =
-                basis_taylor(knots_.data(), section.degree, p + s, section.span_begin(s));
+                basis_taylor(knots_.data(), Degree, Degree + s, section.span_begin(s));
             knots_[i] = u;
-            Column column{2 * section.n_points + i - p - 1, {}, {}};
-            for (int q = 0; q < kSectionTerms; ++q)
-                for (std::size_t l = 0; l <= p; ++l) {
+            Column column{2 * section.n_points + i - Degree - 1, {}, {}};
+            for (int q = 0; q <= Degree; ++q)
+                for (int l = 0; l <= Degree; ++l) {
                     const double slope = (moved[q][l] - taylor[q][l]) / step;
                     column.x[q] += slope * section.points[s + l].x;
                     column.y[q] += slope * section.points[s + l].y;
                 }
             columns_.push_back(column);
+            add_knot<Degree>(taylor, s);
         }
     }
 
-    // Adds G' H G and G' g of one span, G the columns.
-    void scatter(const Moments &m) {
-        for (std::size_t a = 0; a < columns_.size(); ++a) {
-            const Column &column = columns_[a];
-            std::array<double, kSectionTerms> hx{}, hy{};
-            double slope = 0.0;
-            for (int q = 0; q < kSectionTerms; ++q) {
-                for (int r = 0; r < kSectionTerms; ++r) {
-                    hx[q] += m.xx[q + r] * column.x[r] + m.xy[q + r] * column.y[r];
-                    hy[q] += m.xy[q + r] * column.x[r] + m.yy[q + r] * column.y[r];
-                }
-                slope += column.x[q] * m.x[q] + column.y[q] * m.y[q];
+    // The last of the columns with itself, those before it, and the points.
+    template <int Degree>
+    void add_knot(const BasisTaylor &taylor, std::size_t s) {
+        const Moments &m = moments_[s];
+        const Column &knot = columns_.back();
+        Terms hx{}, hy{};
+        for (int q = 0; q <= Degree; ++q) {
+            for (int r = 0; r <= Degree; ++r) {
+                hx[q] += m.xx[q + r] * knot.x[r] + m.xy[q + r] * knot.y[r];
+                hy[q] += m.xy[q + r] * knot.x[r] + m.yy[q + r] * knot.y[r];
             }
-            gradient_[column.unknown] += slope;
-            for (std::size_t c = a; c < columns_.size(); ++c) {
-                double sum = 0.0;
-                for (int q = 0; q < kSectionTerms; ++q)
-                    sum += columns_[c].x[q] * hx[q] + columns_[c].y[q] * hy[q];
-                matrix_[column.unknown * size_ + columns_[c].unknown] += sum;
-                if (c != a) matrix_[columns_[c].unknown * size_ + column.unknown] += sum;
+            gradient_[knot.unknown] += knot.x[q] * m.x[q] + knot.y[q] * m.y[q];
+        }
+        for (int l = 0; l <= Degree; ++l)
+            for (int q = 0; q <= Degree; ++q) {
+                add(knot.unknown, 2 * (s + l), taylor[q][l] * hx[q]);
+                add(knot.unknown, 2 * (s + l) + 1, taylor[q][l] * hy[q]);
             }
+        for (const Column &other : columns_) {
+            double sum = 0.0;
+            for (int q = 0; q <= Degree; ++q) sum += other.x[q] * hx[q] + other.y[q] * hy[q];
+            add(knot.unknown, other.unknown, sum);
         }
     }
 

@@ -63,6 +63,7 @@ class WindowSystem {
             for (const int u : active_) first[u] = std::min(first[u], lowest);
         }
         matrix_ = EnvelopeMatrix(first);
+        factor_ = matrix_;
         right_side_.assign(count, 0.0);
         scale_.resize(count);
     }
@@ -99,7 +100,7 @@ class WindowSystem {
         for (const int at : point_unknown_)
             if (at >= 0) scale_[at] = scale_[at + 1] = 0.5 * (scale_[at] + scale_[at + 1]);
         const double largest = *std::max_element(scale_.begin(), scale_.end());
-        factor_ = matrix_;
+        factor_.take_values(matrix_);
         for (std::size_t i = 0; i < size(); ++i)
             factor_.at(i, i) += damping * scale_[i] + 1e-9 * largest;
         if (!factor_.factorize()) return false;
