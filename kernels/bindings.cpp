@@ -247,7 +247,8 @@ NB_MODULE(_kernels, m) {
         "fit_sections",
         [](In2 points, bool closed, InIndices joint, InIndices forced, InIndices gentle,
            std::int64_t stride, double resolution, std::int64_t every, double tolerance,
-           int largest_degree, bool smooth, bool ends_fixed, double least_corner, int passes, int widest,
+           int largest_degree, bool smooth, bool ends_fixed, double least_corner, int passes,
+           int widest,
            nb::object ask,
            std::optional<In2> observed, double noise) {
             ss::Interruption asking = interruption(ask);

@@ -14,7 +14,11 @@ namespace shapespline {
 struct MinimaxLimits {
     double tolerance;
     int rounds;
+    // Rounds in which all data are within the tolerance but the curve between them is not: other
+    // weights of the data seldom help. Two are enough where much is tried and little succeeds.
+    int strays = std::numeric_limits<int>::max();
 };
+inline constexpr int kFewStrays = 2;
 
 struct MinimaxResult {
     bool kept = false;        // both distances are within the tolerance, tangent joints are
@@ -66,7 +70,7 @@ class MinimaxFit {
             if (measure < best_) keep_if_better(measure);
             strays += !kept_ && measure <= limits_.tolerance;
             const double distance = largest_distance();
-            if (kept_ || hopeless(round) || stalls >= kMostStalls || strays >= kMostStrays ||
+            if (kept_ || hopeless(round) || stalls >= kMostStalls || strays >= limits_.strays ||
                 !(distance > 1e-12))
                 break;
             if (round > 0 || !started_) reweight(distance);
@@ -104,9 +108,6 @@ class MinimaxFit {
     static constexpr double kNodeWeight = 0.1, kLeastDataWeight = 1e-4, kLeastNodeWeight = 1e-2;
     static constexpr double kJointWeight = 0.2, kJointGrowth = 1.3, kJointAngle = 2.0 / 57.3;
     static constexpr int kMostStalls = 5;
-    // Where all data are within the tolerance but the curve between them is not, other weights of
-    // the data seldom help.
-    static constexpr int kMostStrays = 2;
     // The squared bound of a start that has not converged may be too large by this factor.
     static constexpr double kStartSlack = 9.0;
     static constexpr double kSlack = 20.0;

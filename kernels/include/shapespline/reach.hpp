@@ -30,7 +30,7 @@ class ReachSearch {
                 int largest_degree, Index every)
         : data_(data),
           candidates_(candidates),
-          limits_{tolerance, kRounds},
+          limits_{tolerance, kRounds, kFewStrays},
           largest_degree_(largest_degree),
           every_(static_cast<std::size_t>(every)) {}
 
