@@ -72,6 +72,7 @@ def turns(found):
 
 @pytest.mark.parametrize("tolerance", [1.0, 0.1, 0.01, 0.001])
 @pytest.mark.parametrize("curve", [blob(11), wave(9), blob(7, 5), wave(8, 2)])
+@pytest.mark.slow
 def test_within_the_tolerance_both_ways_and_smooth(curve, tolerance):
     found = arc_polyline(curve, tolerance, closed=curve.periodic)
     forward, reverse, step = two_sided(curve, found, 4000)
@@ -92,6 +93,7 @@ def test_finer_tolerances_take_the_cube_root_of_it_more_arcs():
 
 
 @given(st.integers(0, 5000), st.sampled_from([2, 3, 4]), st.sampled_from([0.5, 0.02]))
+@pytest.mark.slow
 def test_wild_curves_keep_it_too(seed, degree, tolerance):
     rng = np.random.default_rng(seed)
     curve = random_curve(rng, degree, degree + 4)

@@ -19,6 +19,7 @@ def outlines(count):
 
 
 @pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
+@pytest.mark.slow
 def test_an_executor_changes_nothing(pool):
     given = [*outlines(70), np.zeros((3, 2))]  # more than one task
     alone = ss.fit_many(given, n_control_points=9)
@@ -53,6 +54,7 @@ def test_progress_counts_and_cancels():
     assert all("cancelled" in str(batch.failures[index]) for index in (2, 3, 4))
 
 
+@pytest.mark.slow
 def test_cancelling_a_pool_leaves_it_usable():
     with ThreadPoolExecutor(1) as executor:
         batch = ss.fit_many(

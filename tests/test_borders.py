@@ -137,6 +137,7 @@ def test_shared_boundaries_need_a_tolerance():
         ss.fit_shape(ss.Shape(cells()), shared_boundaries=True)
 
 
+@pytest.mark.slow
 def test_curves_of_uncrossed_lines_do_not_cross():
     x = np.linspace(0, 20, 400)
     gap, tolerance = 0.05, 0.4
@@ -162,6 +163,7 @@ def test_crossings_by_hand():
     assert crossing_pairs([long, long + 0.1]) == {(0, 1)}
 
 
+@pytest.mark.slow
 def test_slits_stay_open_at_the_price_of_the_pieces_beside_them():
     picture = ss.read(IMAGES / "opencv_butterfly.jpg", contours="longest")
     (contour,) = picture

@@ -38,6 +38,7 @@ def one_line(error):
     return error.startswith("shapespline: ") and error.count("\n") == 1 and "Traceback" not in error
 
 
+@pytest.mark.slow
 def test_fit_writes_what_it_says(shapespline, tmp_path):
     output, picture = tmp_path / "hand.json", tmp_path / "hand.png"
     code, out, err = shapespline("fit", HAND, "-n", 24, "-o", output, "--plot", picture)
@@ -131,6 +132,7 @@ def test_open_and_y_down(shapespline, tmp_path):
     assert fit.contour.points[30, 1] < 0.01  # the top of the arc has become its bottom
 
 
+@pytest.mark.slow
 def test_paper_writes_its_report(shapespline, tmp_path):
     folder = tmp_path / "figures"
     code, out, err = shapespline(
@@ -353,6 +355,7 @@ def piped(*arguments, given):
     )
 
 
+@pytest.mark.slow
 def test_standard_streams(tmp_path):
     done = piped("fit", "-", "-o", "-", "-f", "svg", "-n", 12, given=HAND.read_bytes())
     assert done.returncode == 0

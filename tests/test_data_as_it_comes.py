@@ -121,6 +121,7 @@ def assert_true(fit):
 @pytest.mark.parametrize("percent", [2.0, 0.1])
 @pytest.mark.parametrize("form", ["pieces", "spline"])
 @pytest.mark.parametrize("name", list(CASES))
+@pytest.mark.slow
 def test_within_a_tolerance(name, form, percent):
     contour = contour_of(name)
     tolerance = tolerance_length(f"{percent}%", contour)
@@ -134,6 +135,7 @@ def test_within_a_tolerance(name, form, percent):
 
 
 @pytest.mark.parametrize("name", list(CASES))
+@pytest.mark.slow
 def test_with_no_parameter_at_all(name):
     contour = contour_of(name)
     if len(contour) < 4:

@@ -158,6 +158,7 @@ def test_more_points_than_one_block_and_duplicates_at_corners():
 @pytest.mark.parametrize(
     "name", ["leaf840_closed", "hand620_closed", "loop500_n1_open", "fa_gear_c0", "naca4412"]
 )
+@pytest.mark.slow
 def test_real_shapes(outline, name):
     contour = outline(name)
     start = initial_curve(contour, length=6)

@@ -20,6 +20,7 @@ def opened(contour):
 @pytest.mark.parametrize(
     "name", ["fa_gear_c0", "hand620_closed", "loop500_n0.2_open", "mdi_fan_c0"]
 )
+@pytest.mark.slow
 def test_fixed_ends_are_the_data_to_the_bit(outline, name, form, corners, effort):
     contour = outline(name)
     contour = opened(contour) if contour.closed else contour

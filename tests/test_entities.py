@@ -38,6 +38,7 @@ def test_a_periodic_spline_is_one_closed_entity():
 
 @pytest.mark.parametrize("corners", ["auto", "free"])
 @pytest.mark.parametrize("name", ["hand620_closed", "plane1100_closed", "loop500_open"])
+@pytest.mark.slow
 def test_real_outlines(outline, name, corners):
     fit = ss.fit_curve(outline(name), tolerance=0.2, corners=corners)
     found = entities(fit)

@@ -44,6 +44,7 @@ def test_the_true_loop_is_found(outline, percent, goal):
 
 @pytest.mark.parametrize("percent", [0.2, 1.0])
 @pytest.mark.parametrize("name", ["NotoSerif-Regular_U0067_c0", "naca2412", "loop500_open"])
+@pytest.mark.slow
 def test_the_estimate_is_nearer_to_the_truth_than_the_points(outline, name, percent):
     truth = outline(name)
     noisy = shaken(truth, percent, 1)
@@ -165,6 +166,7 @@ def test_noise_beyond_the_accuracy_counts():
 
 
 @pytest.mark.parametrize("percent", [0.0, 0.3])
+@pytest.mark.slow
 def test_the_first_point_and_the_direction_do_not_matter(percent):
     points = shaken(flower(300), percent, 5).points
     fit = fit_curve(points, closed=True)
@@ -174,6 +176,7 @@ def test_the_first_point_and_the_direction_do_not_matter(percent):
     assert sorted(back.control_points.tolist()) == sorted(fit.control_points.tolist())
 
 
+@pytest.mark.slow
 def test_parameters_belong_to_their_points():
     noisy = shaken(flower(300), 0.3, 5)
     for points in (noisy.points, noisy.points[::-1]):
@@ -182,6 +185,7 @@ def test_parameters_belong_to_their_points():
         assert off.max() <= fit.max_distance * (1 + 1e-9)
 
 
+@pytest.mark.slow
 def test_size_and_place_do_not_matter():
     noisy = shaken(flower(300), 0.3, 6)
     fit = fit_curve(noisy)

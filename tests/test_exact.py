@@ -47,6 +47,7 @@ def random_pieces(seed, n_pieces, closed):
 
 
 @given(st.integers(0, 10_000), st.integers(2, 5), st.booleans(), st.sampled_from([1e-2, 1e-3]))
+@pytest.mark.slow
 def test_the_polyline_follows_the_pieces(seed, n_pieces, closed, sampling):
     """By dense samples of the pieces, by scipy: curve to polyline within what is reported."""
     pieces = random_pieces(seed, n_pieces, closed)

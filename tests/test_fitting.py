@@ -73,6 +73,7 @@ def test_semi_closed_data_keep_their_corner():
 
 @pytest.mark.parametrize("closed", [True, False])
 @pytest.mark.parametrize("degree", range(1, 10))
+@pytest.mark.slow
 def test_every_degree(degree, closed):
     contour = Contour(flower(240).points[: None if closed else 200], closed=closed)
     fit = fit_curve(contour, n_control_points=30, degree=degree)

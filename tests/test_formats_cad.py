@@ -35,6 +35,7 @@ NAMES = ["ring", "wave", "nested", "degree 5", "square", "hand", "loop"]
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("ending", ENDINGS)
+@pytest.mark.slow
 def test_round_trip(drawings, tmp_path, ending, name):
     round_trip(drawings[name], tmp_path / f"drawing.{ending}")
 

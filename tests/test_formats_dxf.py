@@ -199,6 +199,7 @@ def test_units_are_read(draw, code, unit):
 
 @given(st.integers(0, 3000), st.sampled_from([2, 3, 5]), st.booleans())
 @settings(max_examples=12)
+@pytest.mark.slow
 def test_rational_splines_within_a_billionth(seed, degree, even):
     rng = np.random.default_rng(seed)
     curve = wave(degree + 3, degree, seed=seed, interior=np.sort(rng.uniform(0.1, 0.9, 2)))
@@ -295,6 +296,7 @@ def test_real_fits_come_back(tmp_path, outline):
         round_trip(Drawing([fit]), tmp_path / f"{name}.dxf")
 
 
+@pytest.mark.slow
 def test_the_same_drawing_gives_the_same_bytes(tmp_path):
     ss.write(tmp_path / "a.json", nested())
     program = (

@@ -282,6 +282,7 @@ def test_harmful_and_broken_files_are_sentences(tmp_path, text, message):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_bomb_of_uses_is_refused_at_once(tmp_path):
     groups = "".join(
         f'<g id="g{k}">{f"""<use href="#g{k - 1}"/>""" * 10 if k else path("M0 0h1v1z")}</g>'
@@ -312,6 +313,7 @@ COMMANDS = st.lists(
 
 @given(COMMANDS)
 @settings(max_examples=200)
+@pytest.mark.slow
 def test_any_path_is_read_or_refused_in_a_sentence(tmp_path_factory, commands):
     d = " ".join(f"{letter}{' '.join(numbers)}" for letter, numbers in commands)
     check(tmp_path_factory, f"{HEAD} {PAGE}>{path(d)}</svg>".encode())
@@ -319,6 +321,7 @@ def test_any_path_is_read_or_refused_in_a_sentence(tmp_path_factory, commands):
 
 @given(st.integers(0, 600), st.binary(max_size=6), st.booleans())
 @settings(max_examples=200)
+@pytest.mark.slow
 def test_any_damage_is_read_or_refused_in_a_sentence(tmp_path_factory, at, junk, cut):
     whole = (
         f'{HEAD} {PAGE} width="40mm"><g transform="rotate(30)">'

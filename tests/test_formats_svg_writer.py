@@ -127,6 +127,7 @@ def test_a_cubic_slightly_bent_is_no_line():
 
 @pytest.mark.parametrize("degree", range(4, 10))
 @pytest.mark.parametrize("make", [blob, wave])
+@pytest.mark.slow
 def test_high_degrees_keep_the_bound(tmp_path, make, degree):
     """Sampled from both sides: each is within the bound of the other."""
     curve = make(12, degree)

@@ -77,6 +77,7 @@ def sound(tmp_path_factory):
 @pytest.mark.parametrize("ending", PLAIN)
 @settings(max_examples=60)
 @given(steps=damage())
+@pytest.mark.slow
 def test_damaged_files(sound, tmp_path_factory, ending, steps):
     path = tmp_path_factory.mktemp("damaged") / f"damaged.{ending}"
     path.write_bytes(damaged(sound[ending], steps))

@@ -44,6 +44,7 @@ def angle_bound(fit):
 @pytest.mark.parametrize("angle", [0.0, 2.0, 20.0])  # degrees off the data's own tangent
 @pytest.mark.parametrize("which", [(True, True), (True, False), (False, True)])
 @pytest.mark.parametrize("backwards", [False, True])
+@pytest.mark.slow
 def test_end_tangents_are_exact(angle, which, backwards):
     contour = wave(600)
     begin, end = (moved([t], np.radians(angle))[0] for t in true_wave_tangents())

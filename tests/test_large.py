@@ -75,6 +75,7 @@ def test_open_points_with_a_corner():
 
 
 @pytest.mark.parametrize("noise", [0.005, 0.02])
+@pytest.mark.slow
 def test_points_that_scatter(noise):
     points = rose(N, noise)
     fit = ss.fit_large(points, tolerance=0.15)
@@ -90,6 +91,7 @@ def test_points_that_scatter_by_more_than_the_tolerance():
         ss.fit_large(rose(N, 0.1), tolerance=0.05)
 
 
+@pytest.mark.slow
 def test_the_curve_of_all_in_memory_is_no_other_promise():
     points = rose(60_000, 0.01)
     fit = ss.fit_curve(points, tolerance=0.1)
@@ -97,6 +99,7 @@ def test_the_curve_of_all_in_memory_is_no_other_promise():
     assert found.larger <= fit.hausdorff_distance * (1 + 1e-9) <= 0.1
 
 
+@pytest.mark.slow
 def test_threads_and_blocks_give_the_same_bits(tmp_path):
     points = rose(N, 0.004).astype(np.float32)
     alone = ss.fit_large(points, tolerance=0.1)
@@ -196,6 +199,7 @@ def polyline_distance(points, polyline):
 
 @pytest.mark.parametrize("closed", [True, False])
 @pytest.mark.parametrize("noise", [0.0, 0.05, 1.0])
+@pytest.mark.slow
 def test_averages_lie_as_near_as_they_say(closed, noise):
     points = rose(5000, noise, seed=3)
     if not closed:
@@ -244,6 +248,7 @@ def test_a_file_is_not_held_in_memory(tmp_path):
 
 
 @pytest.mark.parametrize(("shift", "reversed_"), [(123_456, False), (0, True), (200_001, True)])
+@pytest.mark.slow
 def test_in_memory_the_first_point_and_the_direction_do_not_matter(shift, reversed_):
     points = rose(400_000, 0.004)
     turned = np.roll(points, -shift, axis=0)

@@ -413,6 +413,7 @@ def test_stray_residuals_keep_the_curve_near_the_data(outline):
 @pytest.mark.parametrize(
     "name", ["leaf840_closed", "plane1100_closed", "fa_leaf_c0", "mdi_fish_c0"]
 )
+@pytest.mark.slow
 def test_real_shapes(outline, name):
     contour = outline(name)
     start = initial_curve(contour, length=5)

@@ -92,6 +92,7 @@ def test_outliers_far_off_are_left_out():
     assert len(found.indices[0]) == 300
 
 
+@pytest.mark.slow
 def test_a_noisy_band_gives_its_middle():
     rng = np.random.default_rng(3)
     ring = 10 * on_circle(600)
@@ -116,6 +117,7 @@ def test_results_can_be_fitted():
     assert fit.kept
 
 
+@pytest.mark.slow
 def test_nonsense_is_refused():
     rng = np.random.default_rng(4)
     with pytest.raises(ss.OrderError, match="no order"):

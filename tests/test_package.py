@@ -161,6 +161,7 @@ def test_arrows_run_one_way(name):
             assert TIER[first(other)] <= TIER[first(name)], f"{name} imports {other}"
 
 
+@pytest.mark.slow
 def test_no_module_imports_itself_in_a_circle():
     arrows = {
         name: {other for other, _, when in own_imports(path) if other and when != "types"} - {name}

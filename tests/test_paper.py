@@ -228,6 +228,7 @@ def sensible(blob):
 
 
 @pytest.mark.parametrize("which", ["literal", "sensible"])
+@pytest.mark.slow
 def test_report_is_complete_and_readable(which, tmp_path, request):
     pytest.importorskip("matplotlib")
     run = request.getfixturevalue(which)
@@ -261,6 +262,7 @@ def test_report_is_complete_and_readable(which, tmp_path, request):
     assert "iterations" in table["end"][0]
 
 
+@pytest.mark.slow
 def test_report_is_the_same_twice_and_replaces_an_older_one(sensible, tmp_path):
     pytest.importorskip("matplotlib")
     first = [path.read_bytes() for path in write_report(sensible, tmp_path / "a")]
@@ -292,6 +294,7 @@ def test_folder_that_cannot_be_written_is_refused_before_any_work(tmp_path, monk
         check_folder(tmp_path)
 
 
+@pytest.mark.slow
 def test_figure_that_fails_leaves_nothing(sensible, tmp_path, monkeypatch):
     from shapespline import paper_figures as figures
 

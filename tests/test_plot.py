@@ -71,6 +71,7 @@ def labels(figure):
 
 
 @pytest.mark.parametrize("name", CALLS)
+@pytest.mark.slow
 def test_files_are_readable_pngs_of_1600_pixels_without_a_date(tmp_path, name):
     path = tmp_path / f"{name}.png"
     CALLS[name](path)
@@ -84,6 +85,7 @@ def test_files_are_readable_pngs_of_1600_pixels_without_a_date(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", ["fit", "frames", "convergence"])
+@pytest.mark.slow
 def test_same_input_same_bytes(tmp_path, name):
     CALLS[name](tmp_path / "a.png")
     CALLS[name](tmp_path / "b.png")
@@ -91,6 +93,7 @@ def test_same_input_same_bytes(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", CALLS)
+@pytest.mark.slow
 def test_no_legend_covers_axes(drawn, name):
     figure = drawn(name)
     figure.draw_without_rendering()
@@ -104,6 +107,7 @@ def test_no_legend_covers_axes(drawn, name):
 
 
 @pytest.mark.parametrize("name", ["fit", "nested", "points", "frames", "initial", "panels"])
+@pytest.mark.slow
 def test_the_plane_has_equal_axes_and_y_up(drawn, name):
     figure = drawn(name)
     figure.draw_without_rendering()
@@ -285,6 +289,7 @@ def test_twelve_methods_look_different(drawn):
     assert len({(one.get_color(), str(one._dash_pattern)) for one in named}) == 12
 
 
+@pytest.mark.slow
 def test_convergence_to_zero_does_not_warn(tmp_path):
     zero = [record._replace(paper_error=0.0) for record in history()]
     paper_figures.plot_convergence({"a": zero}, tmp_path / "zero.png")

@@ -42,6 +42,7 @@ def test_progress_within_a_tolerance_is_told_and_changes_no_bit(outline, form):
 
 @pytest.mark.parametrize("form", ["pieces", "spline"])
 @pytest.mark.parametrize("after", [1, 3])
+@pytest.mark.slow
 def test_a_true_answer_cancels_and_the_result_keeps_the_promise(form, after):
     calls = []
 
@@ -58,6 +59,7 @@ def test_a_true_answer_cancels_and_the_result_keeps_the_promise(form, after):
 
 
 @pytest.mark.parametrize("form", ["pieces", "spline"])
+@pytest.mark.slow
 def test_a_time_limit_ends_the_search_with_what_there_is(form):
     begin = time.monotonic()
     fit = fit_curve(wavy(), tolerance=0.005, form=form, effort="smallest", time_limit=0.4)

@@ -62,6 +62,7 @@ def highest_excess(problem, x, gradient_norm):
 @every_problem
 @every_method
 @pytest.mark.parametrize("wolfe", ["strong", "weak"])
+@pytest.mark.slow
 def test_every_method_finds_every_minimum(make, name, wolfe):
     problem = make()
     before = problem.start.copy()

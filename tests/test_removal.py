@@ -61,6 +61,7 @@ def assert_promise(fit, contour):
 
 
 @pytest.mark.parametrize(("name", "relative", "most"), MOST_POINTS)
+@pytest.mark.slow
 def test_few_points_keep_the_promise_and_the_product_rule(outline, name, relative, most):
     contour = outline(name)
     fit = fit_spline(contour, relative * contour.box_diagonal)
@@ -80,6 +81,7 @@ def test_few_points_keep_the_promise_and_the_product_rule(outline, name, relativ
 
 @pytest.mark.parametrize("degree", [1, 2, 3, 4, 5])
 @pytest.mark.parametrize("shape", [flower(), wave()], ids=["closed", "open"])
+@pytest.mark.slow
 def test_every_degree_keeps_the_promise(shape, degree):
     fit = fit_spline(shape, 0.02, degree=degree)
     assert fit.curve.degree == degree
@@ -154,6 +156,7 @@ def test_self_intersections_of_the_data_stay():
     assert fit.rule.n_crossings == fit.rule.n_data_crossings == 1
 
 
+@pytest.mark.slow
 def test_more_effort_never_breaks_the_promise():
     contour = flower(petals=7)
     counts = []

@@ -97,6 +97,7 @@ def test_cost_and_gradient_are_those_of_the_definition(degree, periodic, weighte
 
 @pytest.mark.parametrize("degree", [1, 2, 3, 5, 9])
 @closures
+@pytest.mark.slow
 def test_the_gradient_is_the_difference_quotient_of_the_cost(degree, periodic):
     case = Case(degree, periodic, n=12, multiple=False)
     problem, x = case.problem(), case.x()
@@ -471,6 +472,7 @@ def test_fewer_periodic_control_points_than_a_span_needs_are_right_or_refused(m)
 @pytest.mark.parametrize("degree", [1, 2, 3, 5])
 @closures
 @pytest.mark.parametrize("held", [False, True])
+@pytest.mark.slow
 def test_the_gradient_of_the_stray_residuals_is_their_difference_quotient(degree, periodic, held):
     case = Case(degree, periodic, n=9, multiple=False)
     ends = "interpolated" if held and not periodic else "free"

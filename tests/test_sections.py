@@ -47,6 +47,7 @@ def check_export(result):
 
 @pytest.mark.parametrize("name", PEERS)
 @pytest.mark.parametrize("corners", ["auto", "free"])
+@pytest.mark.slow
 def test_peers_keep_the_promise_with_few_points(outline, name, corners):
     contour = outline(name)
     most = (FAITHFUL if corners == "auto" else FREE)[name]
@@ -183,6 +184,7 @@ def spiky():
 )  # fmt: skip
 @pytest.mark.parametrize("part", [0.2, 0.01, 1e-4])
 @pytest.mark.parametrize("corners", ["auto", "free", None])
+@pytest.mark.slow
 def test_awkward_outlines_keep_the_promise(points, part, corners):
     for closed in (True, False):
         contour = Contour(points, closed=closed)
@@ -194,6 +196,7 @@ def test_awkward_outlines_keep_the_promise(points, part, corners):
     st.booleans(),
     st.sampled_from(["auto", "free", None]),
 )
+@pytest.mark.slow
 def test_any_polyline_keeps_the_promise(points, closed, corners):
     if len(set(points)) < 3:
         return

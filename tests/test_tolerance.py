@@ -49,6 +49,7 @@ def checked(fit, tolerance):
     "name", ["hand620_closed", "leaf840_closed", "plane1100_closed", "loop500_open"]
 )
 @pytest.mark.parametrize(("form", "corners"), list(SIZES))
+@pytest.mark.slow
 def test_sizes_of_the_four_outlines(outline, form, corners, name, which):
     tolerance = (0.1, 0.5)[which]
     fit = checked(
@@ -125,6 +126,7 @@ def test_a_smooth_closed_outline_is_one_periodic_spline():
 
 @pytest.mark.parametrize("degree", [1, 2, 3, 4, 5])
 @pytest.mark.parametrize("form", ["pieces", "spline"])
+@pytest.mark.slow
 def test_degrees(form, degree):
     fit = checked(fit_curve(flower(240), tolerance=0.05, degree=degree, form=form), 0.05)
     assert fit.degree == degree
@@ -138,6 +140,7 @@ def test_corners_given_by_their_indices(outline):
     assert smooth.n_stored_points > 4
 
 
+@pytest.mark.slow
 def test_more_effort_is_never_larger(outline):
     balanced, smallest = (
         fit_curve(outline("hand620_closed"), tolerance=0.1, effort=effort).n_stored_points

@@ -134,6 +134,7 @@ def test_nesting_agrees_with_an_independent_point_in_polygon(seed):
 
 @given(st.integers(0, 10_000), st.integers(40, 210))
 @settings(max_examples=40)
+@pytest.mark.slow
 def test_no_two_points_coincide_even_where_pixels_lie_on_the_level(seed, level):
     image = blobs(seed)
     image[::3] = np.where(np.abs(image[::3].astype(int) - level) < 30, level, image[::3])
@@ -173,6 +174,7 @@ def test_polarity_is_told_by_the_rim():
     st.lists(st.integers(0, 30), min_size=2, max_size=40).filter(lambda v: len(set(v)) > 1),
     st.sampled_from([np.uint8, np.uint16]),
 )
+@pytest.mark.slow
 def test_otsu_splits_where_the_between_class_variance_is_largest(values, dtype):
     values = np.array(values, dtype=dtype)
     level = otsu_level(values)

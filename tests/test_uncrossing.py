@@ -5,15 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 from benchmarks.outside_metric import two_sided
 from numpy.testing import assert_allclose, assert_array_equal
 
 import shapespline as ss
 from shapespline.crossings import self_crossings
+from shapespline.drawing import Piece
 from shapespline.exact import sampled
+from shapespline.footpoint import nearest
 from shapespline.sections import fit_pieces
 from shapespline.slits import Sides, moved
-from shapespline.trails import Row, Trail
+from shapespline.trails import Row, Trail, curve_of, located
 
 IMAGES = Path(__file__).resolve().parents[1] / "examples" / "data" / "images"
 
@@ -50,6 +53,7 @@ SLITS = [
 ]
 
 
+@pytest.mark.slow
 def test_slits_stay_open_for_few_points():
     n_crossing = 0
     for points, part in SLITS:
@@ -78,6 +82,7 @@ def test_curves_beside_slits_do_not_depend_on_the_first_point():
         assert_array_equal(fit.control_points, fits[0].control_points)
 
 
+@pytest.mark.slow
 def test_every_outline_of_a_drawing_comes_apart():
     # One of them is so narrow that a node is nearer to the other side than to its own.
     drawing = ss.fit_shape(ss.read(IMAGES / "opencv_butterfly.jpg"), tolerance=1.5)
@@ -126,3 +131,22 @@ def test_parts_hold_every_point_once_from_any_of_them_on():
         assert bounds == sorted(bounds)
         assert (np.diff(turned.trail.along) > 0).all()
         assert {tuple(p) for p in turned.trail.points} == {tuple(p) for p in contour.points}
+
+
+def test_points_that_scatter_go_with_their_pieces():
+    """Where data are far longer than the curve along them, and elsewhere not, none is misplaced."""
+    x, tolerance = np.linspace(0, 100, 4000), 0.5
+    y = 5 * np.sin(x / 3)
+    fit = ss.fit_curve(np.column_stack([x, y]), tolerance=0.001, closed=False)
+    pieces = [Piece("bezier", 3, np.repeat([0.0, 1.0], 4), p) for p in fit.spline.beziers().points]
+    assert len(pieces) > 20
+    scatter = 0.9 * tolerance * (-1.0) ** np.arange(len(x)) * (x < 50)
+    data = ss.Contour(np.column_stack([x, y + scatter]), closed=False)
+    assert data.length > 10 * fit.spline.length()
+    parts = located(Trail(data.points, data.arc_length), pieces, tolerance)
+    for part in parts:
+        own = data.points[part.begin : part.end]
+        assert len(own)
+        # A point beside a node may be given to the neighbour of its piece.
+        off = np.sqrt(nearest(curve_of(part.piece), own).distances_sq)
+        assert off.max() <= 3 * tolerance

@@ -129,12 +129,8 @@ def located(
         lengths *= (trail.along[-1] - trail.along[0]) / lengths.sum()
     cuts = [0]
     for (before, after), length in zip(pairwise(curves), lengths[:-1], strict=True):
-        begin = min(cuts[-1], count - 1)
-        reach = ALONG * length + TOLERANCES * tolerance
-        target = trail.along[begin] + length if count else 0.0
-        low, high = np.searchsorted(trail.along, [target - reach, target + reach])
-        low = max(int(low), cuts[-1])
-        cuts.append(low + _cut(before, after, trail.points[low : int(high)], tolerance))
+        low, high = _window(trail, cuts[-1], length, after.control_points[0], tolerance)
+        cuts.append(low + _cut(before, after, trail.points[low:high], tolerance))
     cuts.append(count)
     return tuple(
         Part(piece, chords(curve, SAMPLING_PART * tolerance)[0], first + i, first + k)
@@ -157,6 +153,32 @@ def _begin(contour: Contour, curve: BSplineCurve, share: float, tolerance: float
     # By place of the segment before each point.
     distances_sq = np.roll(_distances_sq(curve.control_points[0], contour.polyline), 1)
     return int(np.lexsort((distances_sq, lost_ahead))[0])
+
+
+def _window(
+    trail: Trail, begin: int, length: float, node: FloatArray, tolerance: float
+) -> tuple[int, int]:
+    """The points (low, high) among which a piece from one of them on, so long, ends at a node.
+
+    A curve within the tolerance is shorter than data that scatter: the points are looked for
+    farther away until some of them are near the node.
+    """
+    count = len(trail.along)
+    windows: list[tuple[int, int]] = []
+    if not count:
+        return 0, 0
+    target = trail.along[min(begin, count - 1)] + length
+    reach = ALONG * length + TOLERANCES * tolerance
+    while True:
+        at = np.searchsorted(trail.along, [target - reach, target + reach])
+        low, high = np.maximum(at, begin).tolist()
+        windows.append((low, high))
+        polyline = trail.points[max(low - 1, 0) : high + 1]
+        if len(polyline) > 1 and _distances_sq(node, polyline).min() <= tolerance**2:
+            return low, high
+        if low == begin and high == count:
+            return windows[0]
+        reach *= 2.0
 
 
 def _cut(before: BSplineCurve, after: BSplineCurve, points: FloatArray, tolerance: float) -> int:
