@@ -23,8 +23,8 @@ LEAST_TURN = np.radians(25.0)
 STEPS = 5.0
 TOLERANCES = 8.0
 # A bend that is seen to be round from that near, in tolerances, is no corner. Looked at where that
-# is much nearer than the length above.
-CLOSE_TOLERANCES, CLOSER = 2.0, 0.5
+# is nearer than the length above by a third.
+CLOSE_TOLERANCES, CLOSER = 2.0, 0.65
 # A parabola over a length L sampled at spacing d with noise sigma has a slope error of about
 # sigma sqrt(d / L^3) times a constant; this one makes it a small part of LEAST_TURN.
 NOISE_FACTOR = 132.0
