@@ -48,7 +48,7 @@ def noise_level(contour: Contour) -> float:
     first, n_windows = (-HALF_WINDOW, n) if contour.closed else (0, n - width + 1)
     begins = np.arange(first, first + n_windows, max(1, n_windows // MOST_WINDOWS))
     index = (begins[:, None] + np.arange(width)) % n
-    x, y = ((axis - axis[0])[index] @ _SLOPE_AND_REST for axis in contour.points.T)
+    x, y = ((axis[index] - axis[0]) @ _SLOPE_AND_REST for axis in contour.points.T)
     across = x[:, 1:] * y[:, :1] - y[:, 1:] * x[:, :1]
     speed_sq = np.maximum(x[:, 0] ** 2 + y[:, 0] ** 2, np.finfo(float).tiny)
     level_sq = float(np.median((across**2).sum(axis=1) / speed_sq)) / _CHI_SQUARED_MEDIAN

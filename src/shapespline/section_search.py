@@ -39,9 +39,9 @@ class Search(NamedTuple):
     """What one run of the kernel may do.
 
     ``stride`` is the distance of candidate nodes in points, but more of them stand where the
-    polyline through them would leave the data by ``resolution`` tolerances; how far sections reach
-    is found from ``every`` so many-th of them; ``passes`` is how often all moves are tried,
-    ``widest`` how many neighbours they take along.
+    polyline through them would leave the data by ``resolution`` tolerances. How far sections reach
+    is found from one in ``every`` of them; ``passes`` is how often all moves are tried, ``widest``
+    how many neighbours they take along.
     """
 
     stride: int

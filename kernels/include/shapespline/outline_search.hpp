@@ -17,7 +17,7 @@ struct OutlineSearch {
     std::vector<Joint> nodes;  // of each candidate
     std::span<const Index> gentle;  // of each datum of a lap: whether the data hardly turn there
     double tolerance;
-    Index every;  // so many-th candidate is looked from
+    Index every;  // one candidate in so many is looked from
     int largest_degree;
     bool smooth;      // joints that are no corners are tangent
     bool ends_fixed;  // an open outline begins and ends in its first and last datum

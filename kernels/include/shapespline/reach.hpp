@@ -24,8 +24,8 @@ struct Reach {
 
 class ReachSearch {
   public:
-    // How far curves reach is found from every so many-th candidate, and where no section may
-    // reach across.
+    // How far curves reach is found from one candidate in `every`, and behind those that no
+    // section may reach across.
     ReachSearch(std::span<const Vec2> data, const Candidates &candidates, double tolerance,
                 int largest_degree, Index every)
         : data_(data),
