@@ -10,6 +10,7 @@ from numpy.testing import assert_array_equal
 from tests.shapes import flower, moved
 
 from shapespline import Contour, InvalidInputError, Shape, Status, fit_curve, fit_shape, read, write
+from shapespline.sections import fit_pieces
 from shapespline.tolerance import tolerance_length
 
 PINNED = Path(__file__).with_name("pinned_points.csv")
@@ -240,3 +241,18 @@ def test_a_shape_has_one_tolerance(tmp_path):
 def test_bad_arguments(arguments, message):
     with pytest.raises(InvalidInputError, match=message):
         fit_curve(flower(160), **arguments)
+
+
+def test_no_facets_where_a_smooth_curve_is_no_larger():
+    """Loops of a pen, coarsely recorded: lines would take fewer points than curves with corners."""
+    t = np.linspace(0, 6 * np.pi, 60)
+    loops = np.column_stack([6 * t + 22 * np.sin(t), 25 * np.cos(t) + 6 * np.sin(0.4 * t)])
+    contour = Contour(np.round(loops), closed=False)
+    lines = fit_pieces(contour, 0.2)
+    assert {piece.kind for piece in lines.pieces} == {"line"}
+    fit = checked(fit_curve(contour, tolerance=0.2), 0.2)
+    assert not fit.sections
+    assert fit.n_stored_points < 0.8 * lines.n_stored_points
+    # Who names corners gets them.
+    named = fit_curve(contour, tolerance=0.2, corners=[20, 40])
+    assert named.sections

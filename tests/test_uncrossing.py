@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from benchmarks.outside_metric import two_sided
 from numpy.testing import assert_allclose, assert_array_equal
+from tests import shapes
 
 import shapespline as ss
-from shapespline.crossings import self_crossings
+from shapespline.crossings import crossing_pairs, self_crossings
 from shapespline.drawing import Piece
 from shapespline.exact import sampled
 from shapespline.footpoint import nearest
@@ -150,3 +151,30 @@ def test_points_that_scatter_go_with_their_pieces():
         # A point beside a node may be given to the neighbour of its piece.
         off = np.sqrt(nearest(curve_of(part.piece), own).distances_sq)
         assert off.max() <= 3 * tolerance
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3])
+def test_ways_that_cross_in_a_vertex_cross(turn):
+    """Points on a grid often meet where a pen crosses its own way: nothing to part there."""
+    t = np.linspace(0, 6 * np.pi, 90)
+    loops = np.column_stack([6 * t + 22 * np.sin(t), 25 * np.cos(t) + 6 * np.sin(0.4 * t)])
+    points = shapes.moved(np.round(loops), turn)
+    contour = ss.Contour(points, closed=False)
+    fit = ss.fit_curve(contour, tolerance=0.6)
+    searched = fit_pieces(contour, 0.6)
+    assert self_crossings(contour.polyline) == crossings(fit, 0.6) == 3
+    assert fit.n_stored_points <= searched.n_stored_points < 20
+
+
+def test_strokes_that_cross_in_a_vertex_cross():
+    bar = np.column_stack([np.arange(-20.0, 21), np.zeros(41)])
+    stem = np.column_stack([0.02 * np.arange(-20.0, 21) ** 2, np.arange(-20.0, 21)])
+    assert crossing_pairs([bar, stem]) == set()
+    assert crossing_pairs([bar, stem], at_vertices=True) == {(0, 1)}
+    beside, above = stem + np.array([0.5, 0.0]), bar + np.array([0.0, 3.0])
+    assert crossing_pairs([bar, beside], at_vertices=True) == {(0, 1)}
+    assert crossing_pairs([bar, above], at_vertices=True) == set()
+    shape = ss.Shape([ss.Contour(p, closed=False) for p in (bar, stem)])
+    drawing = ss.fit_shape(shape, tolerance=0.3)
+    assert all(fit.kept and not fit.status.value.endswith("do not") for fit in drawing)
+    assert drawing.fits[0].n_stored_points == 2

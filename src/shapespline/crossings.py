@@ -19,10 +19,13 @@ if TYPE_CHECKING:
 CHUNK = 2_000_000
 
 
-def crossing_pairs(polylines: Sequence[FloatArray]) -> set[tuple[int, int]]:
+def crossing_pairs(
+    polylines: Sequence[FloatArray], *, at_vertices: bool = False
+) -> set[tuple[int, int]]:
     """Pairs of polylines of which a segment crosses one of the other, (i, j) with i < j.
 
-    Touching is no crossing.
+    Touching is no crossing. With ``at_vertices`` a way through a vertex of the other is one, and
+    one that only touches a vertex may count as one.
 
     Examples
     --------
@@ -32,11 +35,21 @@ def crossing_pairs(polylines: Sequence[FloatArray]) -> set[tuple[int, int]]:
     """
     lows = np.array([polyline.min(axis=0) for polyline in polylines])
     highs = np.array([polyline.max(axis=0) for polyline in polylines])
-    return {(i, j) for i, j in _meeting(lows, highs) if _cross(polylines[i], polylines[j])}
+    return {
+        (i, j) for i, j in _meeting(lows, highs) if _cross(polylines[i], polylines[j], at_vertices)
+    }
 
 
 def self_crossings(polyline: FloatArray) -> int:
-    """Number of pairs of segments of a polyline that cross."""
+    """Number of pairs of segments of a polyline that cross.
+
+    A way through a vertex counts once, one that only touches it not at all or twice.
+
+    Examples
+    --------
+    >>> self_crossings(np.array([(0.0, 0), (2, 2), (4, 4), (4, 0), (2, 2), (0, 4)]))
+    1
+    """
     return int(_kernels.count_crossings(np.ascontiguousarray(polyline)))
 
 
@@ -51,7 +64,7 @@ def _meeting(lows: FloatArray, highs: FloatArray) -> Iterator[tuple[int, int]]:
             yield min(int(k), other), max(int(k), other)
 
 
-def _cross(first: FloatArray, second: FloatArray) -> bool:
+def _cross(first: FloatArray, second: FloatArray, at_vertices: bool) -> bool:
     """Whether some segment crosses some other, among those in the common part of their boxes."""
     low = np.maximum(first.min(axis=0), second.min(axis=0))
     high = np.minimum(first.max(axis=0), second.max(axis=0))
@@ -61,7 +74,8 @@ def _cross(first: FloatArray, second: FloatArray) -> bool:
         return False
     step = max(1, CHUNK // len(c))
     return any(
-        bool(_proper(a[k : k + step], b[k : k + step], c, d).any()) for k in range(0, len(a), step)
+        bool(_crossed(a[k : k + step], b[k : k + step], c, d, at_vertices).any())
+        for k in range(0, len(a), step)
     )
 
 
@@ -74,12 +88,18 @@ def _within(
     return a[meets], b[meets]
 
 
-def _proper(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> NDArray[np.bool_]:
-    """Whether segments a b and c d cross in an inner point of both, every one with every other."""
+def _crossed(
+    a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, at_vertices: bool
+) -> NDArray[np.bool_]:
+    """Whether segments a b and c d cross, every one with every other.
+
+    In an inner point of both; or, as if a point on a segment lay to the left of it.
+    """
 
     def side(p: FloatArray, q: FloatArray, r: FloatArray) -> FloatArray:
         u, v = q - p, r - p
-        return np.sign(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+        cross = u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
+        return np.where(cross >= 0, 1.0, -1.0) if at_vertices else np.sign(cross)
 
     a, b, c, d = a[:, None], b[:, None], c[None], d[None]
     return (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)

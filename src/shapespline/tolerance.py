@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from shapespline.arrays import float_array, is_number
+from shapespline.corners import LEAST_TURN
 from shapespline.drawing import Status
 from shapespline.errors import InvalidInputError
 from shapespline.held import Held
 from shapespline.outline import FEWEST_STRAIGHT, STRAIGHT_PART, SearchOutline, filled
-from shapespline.removal import fit_spline
+from shapespline.removal import fit_spline, rule_report
 from shapespline.sections import ROUGH_PART, fit_pieces
 from shapespline.symmetry import fit_mirrored
 from shapespline.verification import verified_fit
@@ -24,7 +25,11 @@ if TYPE_CHECKING:
     from shapespline.drawing import Fit, Piece
     from shapespline.frame import WorkingFrame
     from shapespline.progress import Watch
+    from shapespline.sections import PiecesResult
     from shapespline.typing import ArrayLike, FloatArray, IntArray
+
+# Of the joints between lines that stand for a curve so many turn less than corners.
+FACETS_PART = 0.25
 
 Form = Literal["pieces", "spline"]
 Ends = Literal["free", "fixed"]
@@ -136,16 +141,21 @@ def fit_within(
         )
     if found is mirrored and symmetric:
         return fit
-    if watch.ended_as or held.anything or (len(outline.corners) and not free):
+    cornered = len(outline.corners) > 0 and not free
+    if watch.ended_as or held.anything:
+        return fit
+    if cornered and not (isinstance(corners, str) and _in_facets(found)):
         return fit
     drawn = filled(contour if dense is None else dense)
     if not free and any(_drawn_straight(piece, drawn, tolerance) for piece in found.pieces):
         return fit
     smooth = smooth or _single(contour, tolerance, degree, effort, watch, outline.frame)
     # Of equals the single spline: it has no joints. Nor has it corners where the data have none.
-    if not free and len(found.corners) and _followed(smooth):
+    if not (free or cornered) and len(found.corners) and _followed(smooth):
         return smooth
     better = smooth.kept >= fit.kept and smooth.n_stored_points <= fit.n_stored_points
+    if cornered:  # without a cusp in place of a corner
+        better = better and rule_report(smooth.spline, contour).kept
     return smooth if better else _ended(fit, watch)
 
 
@@ -168,6 +178,15 @@ def _single(
 def _followed(fit: Fit) -> bool:
     """Whether a fit keeps its tolerance with few points for those of the data."""
     return fit.kept and fit.n_stored_points <= ROUGH_PART * len(fit.contour)
+
+
+def _in_facets(found: PiecesResult) -> bool:
+    """Whether lines stand for a curve: many of the joints between them turn less than corners."""
+    if any(piece.degree > 1 for piece in found.pieces):
+        return False
+    turns = np.abs(list(found.turns()))
+    gentle = np.count_nonzero(turns < LEAST_TURN)
+    return bool(len(turns) and gentle >= FACETS_PART * len(turns))
 
 
 def _drawn_straight(piece: Piece, contour: Contour, tolerance: float) -> bool:

@@ -155,7 +155,9 @@ def _new_crossings(
     """Pairs of contours whose lines cross but not their data; (i, i) of one that crosses itself."""
     data = [contour.polyline for contour in contours]
     pairs = {
-        pair for pair in crossing_pairs(lines) if not crossing_pairs([data[pair[0]], data[pair[1]]])
+        (i, j)
+        for i, j in crossing_pairs(lines)
+        if not crossing_pairs([data[i], data[j]], at_vertices=True)
     }
     return pairs | {
         (index, index)

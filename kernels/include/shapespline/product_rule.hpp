@@ -155,8 +155,9 @@ std::vector<Chord> flattened(const StateCurves<Degree> &all, double flatness, co
     return chords;
 }
 
-// Number of proper crossings among segments: a sweep over them sorted by x. Neighbours that share
-// an end, to rounding, do not cross.
+// Number of crossings among segments: a sweep over them sorted by x. A point on a segment lies to
+// the left of it, so that a way through a vertex crosses once, and one that only touches it not at
+// all or twice. Neighbours that share an end, to rounding, do not cross.
 inline int count_crossings(std::span<const Chord> chords) {
     const int n = static_cast<int>(chords.size());
     struct Item {
@@ -175,10 +176,8 @@ inline int count_crossings(std::span<const Chord> chords) {
         const auto [c, d] = chords[k];
         if (std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
             return false;
-        const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
-        const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
-        return ((c_side > 0.0 && d_side < 0.0) || (c_side < 0.0 && d_side > 0.0)) &&
-               ((a_side > 0.0 && b_side < 0.0) || (a_side < 0.0 && b_side > 0.0));
+        const auto left = [](Vec2 p, Vec2 q, Vec2 r) { return cross(q - p, r - p) >= 0.0; };
+        return left(a, b, c) != left(a, b, d) && left(c, d, a) != left(c, d, b);
     };
     int count = 0;
     for (int i = 0; i < n; ++i)
