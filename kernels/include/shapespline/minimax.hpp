@@ -15,10 +15,14 @@ struct MinimaxLimits {
     double tolerance;
     int rounds;
     // Rounds in which all data are within the tolerance but the curve between them is not: other
-    // weights of the data seldom help. Two are enough where much is tried and little succeeds.
+    // weights of the data seldom help.
     int strays = std::numeric_limits<int>::max();
 };
-inline constexpr int kFewStrays = 2;
+
+// Two are enough where much is tried and little succeeds, but where joints are free.
+inline constexpr int most_strays(bool smooth) {
+    return smooth ? 2 : std::numeric_limits<int>::max();
+}
 
 struct MinimaxResult {
     bool kept = false;        // both distances are within the tolerance, tangent joints are

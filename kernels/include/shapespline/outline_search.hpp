@@ -71,7 +71,7 @@ struct OutlineSearch {
         std::vector<std::size_t> barrier(n, n - 1);
         for (std::size_t k = n - 1; k-- > 0;)
             barrier[k] = nodes[k + 1].barred() ? k + 1 : barrier[k + 1];
-        const ReachSearch search(data, candidates, tolerance, largest_degree, every);
+        const ReachSearch search(data, candidates, tolerance, largest_degree, smooth, every);
         std::vector<Reach> reaches;
         for (int cost = 1; cost <= largest_degree; ++cost)
             reaches.push_back(search.run(cost, barrier, interruption));
@@ -87,7 +87,7 @@ struct OutlineSearch {
         const Section start = blank_section(data, first, last, data[first], data[last], cost,
                                             largest_degree);
         if (cost > 1) return fit_section(data, start, {tolerance, kPathRounds});
-        const ReachSearch search(data, candidates, tolerance, largest_degree, every);
+        const ReachSearch search(data, candidates, tolerance, largest_degree, smooth, every);
         return {search.fits(1, first, last), 0.0, {start}};
     }
 

@@ -27,10 +27,10 @@ class ReachSearch {
     // How far curves reach is found from one candidate in `every`, and behind those that no
     // section may reach across.
     ReachSearch(std::span<const Vec2> data, const Candidates &candidates, double tolerance,
-                int largest_degree, Index every)
+                int largest_degree, bool smooth, Index every)
         : data_(data),
           candidates_(candidates),
-          limits_{tolerance, kRounds, kFewStrays},
+          limits_{tolerance, kRounds, most_strays(smooth)},
           largest_degree_(largest_degree),
           every_(static_cast<std::size_t>(every)) {}
 

@@ -98,7 +98,7 @@ class Reduction {
         if (!fresh.empty()) {
             window.erase(window.begin() + (i - i0), window.begin() + (i - i0 + old));
             window.insert(window.begin() + (i - i0), fresh.begin(), fresh.end());
-            const MinimaxLimits limits{limits_.tolerance, kRounds, kFewStrays};
+            const MinimaxLimits limits{limits_.tolerance, kRounds, most_strays(limits_.smooth)};
             const MinimaxResult result =
                 MinimaxFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits)
                     .run();
@@ -160,7 +160,9 @@ class Reduction {
                                             limits_.largest_degree),
                               start_limits());
     }
-    MinimaxLimits start_limits() const { return {limits_.tolerance, kStartRounds, kFewStrays}; }
+    MinimaxLimits start_limits() const {
+        return {limits_.tolerance, kStartRounds, most_strays(limits_.smooth)};
+    }
 
     std::span<const Vec2> data_;
     SectionRing &ring_;
