@@ -1,4 +1,4 @@
-"""One helper for every format that holds curves: what was written, read again."""
+"""Helpers for every format that holds curves: what was written, read again; ezdxf's own points."""
 
 from __future__ import annotations
 
@@ -45,3 +45,16 @@ def _matched(drawing, again):
     ]
     assert sorted(order) == list(range(len(drawing)))
     return order
+
+
+def flattened(entity, n=400):
+    """Points of an entity by ezdxf's construction tools."""
+    if entity.dxftype() == "LINE":
+        return np.array([entity.dxf.start.xyz, entity.dxf.end.xyz])[:, :2]
+    if entity.dxftype() in ("ARC", "CIRCLE"):
+        angles = np.linspace(0, 360, n) if entity.dxftype() == "CIRCLE" else entity.angles(n)
+        return np.array([p.xyz for p in entity.vertices(list(angles))])[:, :2]
+    tool = entity.construction_tool()
+    if entity.dxftype() == "ELLIPSE":
+        return np.array([p.xyz for p in tool.vertices(tool.params(n))])[:, :2]
+    return np.array([p.xyz for p in tool.approximate(n)])[:, :2]

@@ -1,12 +1,19 @@
-"""Curves and outlines to test with."""
+"""Curves and outlines to test with, data beside them, and the degrees and closures to try."""
 
 from __future__ import annotations
 
 import numpy as np
+import pytest
+from tests import reference
 
 from shapespline.contour import Contour
 from shapespline.curve import BSplineCurve
 from shapespline.knots import clamped_knots, periodic_knots
+from shapespline.residuals import CurveProblem
+
+EPS = reference.EPS
+degrees = pytest.mark.parametrize("degree", range(1, 10))
+closures = pytest.mark.parametrize("periodic", [False, True], ids=["clamped", "periodic"])
 
 
 def random_curve(rng, degree, n_control_points, *, periodic=False, multiple=True):
@@ -25,6 +32,12 @@ def random_curve(rng, degree, n_control_points, *, periodic=False, multiple=True
     else:
         knots = clamped_knots(m, degree, inside)
     return BSplineCurve(knots, points, degree, periodic)
+
+
+def some_curve(degree, periodic, seed=0, extra=8):
+    """A random curve that is the same every time, of degree + 1 + extra control points."""
+    rng = np.random.default_rng([degree, periodic, seed])
+    return random_curve(rng, degree, degree + 1 + extra, periodic=periodic)
 
 
 def on_circle(n, radius=1.0, centre=(0.0, 0.0), turns=1.0):
@@ -62,3 +75,59 @@ def moved(points, angle=0.0, scale=1.0, shift=(0.0, 0.0)):
     """Points turned about the origin, scaled, shifted."""
     c, s = scale * np.cos(angle), scale * np.sin(angle)
     return np.asarray(points) @ np.array([[c, s], [-s, c]]) + np.asarray(shift)
+
+
+class Start:
+    """Anything with a spline and parameters."""
+
+    def __init__(self, spline, parameters):
+        self.spline, self.parameters = spline, np.asarray(parameters, dtype=float)
+
+
+class Case:
+    """A curve, data near it, parameters in order, weights; and how much rounding they stand."""
+
+    def __init__(self, degree, periodic, *, m=None, n=45, seed=0, noise=1.0, multiple=True):
+        rng = np.random.default_rng([degree, periodic, seed])
+        m = degree + 6 if m is None else m
+        self.curve = random_curve(rng, degree, m, periodic=periodic, multiple=multiple)
+        self.parameters = np.sort(rng.uniform(0, 1, n))
+        self.points = self.curve(self.parameters) + rng.normal(0, noise, (n, 2))
+        self.weights = rng.uniform(0.1, 3, n)
+        self.n, self.m, self.degree = n, m, degree
+
+    def problem(self, weighted=True, **options):
+        return CurveProblem(self.points, self.curve, self.weights if weighted else None, **options)
+
+    def x(self):
+        return np.concatenate([self.curve.control_points.ravel(), self.parameters])
+
+    def dense(self, weighted=True, stray_weight=0.0):
+        return reference.dense(
+            self.curve,
+            self.points,
+            self.parameters,
+            self.weights if weighted else None,
+            stray_weight,
+        )
+
+    def off(self, dense, derivative):
+        """Bound of the rounding of points and tangents, (k, 2), k with strays."""
+        u = self.parameters
+        if len(dense.residuals) > self.n:
+            strays = reference.stray_residuals(
+                self.curve.knots, self.degree, self.points, u, 1.0, self.curve.periodic
+            )
+            u = np.array([*u, *(s.parameter for s in strays)])
+            slack = 4 * EPS * 20 * (1 - derivative)  # the targets are rounded, too
+        else:
+            slack = 0
+        bound = reference.evaluation_bound(
+            self.curve.knots,
+            self.curve.control_points,
+            self.degree,
+            u,
+            self.curve.periodic,
+            derivative,
+        )
+        return bound + slack + EPS * np.abs(dense.residuals) * (1 - derivative)
