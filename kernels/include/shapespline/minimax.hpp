@@ -190,37 +190,4 @@ class MinimaxFit {
     double best_ = std::numeric_limits<double>::infinity();
 };
 
-// A new section of a cost over data between two nodes: chord length parameters, equal knots.
-inline Section blank_section(std::span<const Vec2> data, Index first, Index last, Vec2 begin,
-                             Vec2 end, int cost, int largest_degree) {
-    if (cost == 1) return line_section(begin, end, first, last, data);
-    Section s;
-    s.degree = std::min(cost, largest_degree);
-    const int n = cost + 1, spans = n - s.degree;
-    s.knots.assign(n + s.degree + 1, 0.0);
-    for (int k = 0; k <= s.degree + spans; ++k)
-        s.knots[s.degree + k] = std::min(1.0, static_cast<double>(k) / spans);
-    s.points.resize(n);
-    for (int i = 0; i < n; ++i)
-        s.points[i] = begin + (static_cast<double>(i) / (n - 1)) * (end - begin);
-    s.points.back() = end;
-    s.first = first;
-    s.last = last;
-    s.parameters.assign(s.count(), 0.0);
-    for (Index j = 1; j < s.count(); ++j)
-        s.parameters[j] = s.parameters[j - 1] + norm(data[first + j] - data[first + j - 1]);
-    const double length = s.parameters.back();
-    for (double &u : s.parameters) u = length > 0.0 ? u / length : 0.0;
-    return s;
-}
-
-// The same, fitted between its nodes.
-inline MinimaxResult fit_section(std::span<const Vec2> data, const Section &start,
-                                 const MinimaxLimits &limits) {
-    const std::vector<Section> one{start};
-    MinimaxFit fit(data, one, {true}, {true}, limits);
-    fit.start_from_parameters();
-    return fit.run();
-}
-
 }  // namespace shapespline

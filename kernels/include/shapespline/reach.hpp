@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "shapespline/interruption.hpp"
-#include "shapespline/minimax.hpp"
+#include "shapespline/section_fit.hpp"
 
 namespace shapespline {
 
@@ -80,10 +80,9 @@ class ReachSearch {
         if (cost == 1) return line_fits(begin, end, first, last);
         // Fewer data than unknowns: what such a fit does between them is verified later.
         if (last - first - 1 < cost - 1) return true;
-        return fit_section(data_,
-                           blank_section(data_, first, last, begin, end, cost, largest_degree_),
-                           limits_)
-            .kept;
+        return section_fits(data_,
+                            blank_section(data_, first, last, begin, end, cost, largest_degree_),
+                            limits_);
     }
 
   private:

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "shapespline/minimax.hpp"
+#include "shapespline/section_fit.hpp"
 
 namespace shapespline {
 
