@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
     from shapespline.typing import ArrayLike, FloatArray, IntArray
 
+# Nodes and weights of the quadrature of a length.
+GAUSS = np.polynomial.legendre.leggauss(16)
+
 
 class BezierPieces(NamedTuple):
     """Bezier curves end to end: ``points`` (s, degree + 1, 2), ``breakpoints`` (s + 1,)."""
@@ -172,7 +175,7 @@ class BSplineCurve:
 
         Exact to rounding where the speed does not come near zero; not a rigorous bound.
         """
-        nodes, weights = np.polynomial.legendre.leggauss(16)
+        nodes, weights = GAUSS
         cuts = np.linspace(self.breakpoints[:-1], self.breakpoints[1:], 5, axis=1)
         begin, end = cuts[:, :-1].ravel(), cuts[:, 1:].ravel()
         half = 0.5 * (end - begin)

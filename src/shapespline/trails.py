@@ -69,7 +69,7 @@ class Row(NamedTuple):
         pieces, contour = pieces_of(fit), fit.contour
         trail = Trail(contour.points, contour.arc_length[: len(contour)])
         if contour.closed:
-            lengths = [curve_of(piece).length() for piece in pieces]
+            lengths = [_length(_chords(piece, fit.tolerance)) for piece in pieces]
             longest = int(np.argmax(lengths))
             pieces = pieces[longest:] + pieces[:longest]
             share = lengths[longest] / sum(lengths)
@@ -123,7 +123,8 @@ def located(
     Nodes are looked for along the arc lengths of both.
     """
     curves = [curve_of(piece) for piece in pieces]
-    lengths = np.array([curve.length() for curve in curves])
+    lines = [_chords(piece, tolerance) for piece in pieces]
+    lengths = np.array([_length(line) for line in lines])
     count = len(trail.along)
     if count:
         lengths *= (trail.along[-1] - trail.along[0]) / lengths.sum()
@@ -133,9 +134,18 @@ def located(
         cuts.append(low + _cut(before, after, trail.points[low:high], tolerance))
     cuts.append(count)
     return tuple(
-        Part(piece, chords(curve, SAMPLING_PART * tolerance)[0], first + i, first + k)
-        for piece, curve, (i, k) in zip(pieces, curves, pairwise(cuts), strict=True)
+        Part(piece, line, first + i, first + k)
+        for piece, line, (i, k) in zip(pieces, lines, pairwise(cuts), strict=True)
     )
+
+
+def _chords(piece: Piece, tolerance: float) -> FloatArray:
+    """A piece as a polyline."""
+    return chords(curve_of(piece), SAMPLING_PART * tolerance)[0]
+
+
+def _length(line: FloatArray) -> float:
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
 
 
 def _begin(contour: Contour, curve: BSplineCurve, share: float, tolerance: float) -> int:

@@ -94,7 +94,9 @@ class BezierSquares {
     static constexpr int kInner = Degree - 1, kUnknowns = 2 * kInner;
     static constexpr int kTrials = 6, kFirstSteps = 3;
     static constexpr double kLeastScale = 1e-10, kLeastDamping = 1e-6, kRaise = 8.0, kLower = 6.0;
-    static constexpr double kLargestShift = 0.25;  // of a parameter, in one step
+    // Of a parameter: the part of the way that it goes with the control points, and the most that
+    // it goes. The rest is a Newton step's: feet that are exact too early miss solutions (measured).
+    static constexpr double kShiftPart = 0.5, kLargestShift = 0.125;
 
     using Numbers = PairArray<kMostData>;
     using Unknowns = std::array<double, kUnknowns>;
@@ -271,7 +273,7 @@ class BezierSquares {
             state.points[i + 1] += Vec2{step_[2 * i], step_[2 * i + 1]};
     }
 
-    // Parameters move with the control points, as the linearised problem has it.
+    // Parameters move with the control points, part of the way that the linearised problem has.
     void move_parameters(State &state) const {
         for (int k = 0; k < n_pairs(); ++k) {
             const auto basis = inner_basis(now_->u.pair(k));
@@ -282,8 +284,8 @@ class BezierSquares {
             }
             const Pair shift =
                 (rx * now_->tx.pair(k) + ry * now_->ty.pair(k)) / damped_speed_sq(k);
-            const Pair u = now_->u.pair(k) - clamped(shift, -kLargestShift, kLargestShift);
-            state.u.pair(k) = clamped(u, 0.0, 1.0);
+            const Pair moved = clamped(kShiftPart * shift, -kLargestShift, kLargestShift);
+            state.u.pair(k) = clamped(now_->u.pair(k) - moved, 0.0, 1.0);
         }
     }
 
