@@ -49,8 +49,8 @@ if TYPE_CHECKING:
     from shapespline.balance import Balanced
     from shapespline.drawing import Fit
     from shapespline.optimization import Callback
+    from shapespline.refitting import Tangents
     from shapespline.typing import ArrayLike, IntArray
-    from shapespline.uncrossing import Tangents
 
 Knots = Literal["balanced", "dominant", "uniform"]
 # So many points are fitted within a tolerance in passes over chunks, where nothing asks for more.

@@ -20,7 +20,7 @@ from shapespline.verification import verified_fit
 if TYPE_CHECKING:
     from shapespline.drawing import Fit, Piece
     from shapespline.optimization import Callback
-    from shapespline.uncrossing import Tangents
+    from shapespline.refitting import Tangents
 
 # Of the tolerance: points of two contours that are no farther apart are one point of a boundary.
 SNAP_PART = 0.01
