@@ -27,12 +27,12 @@ from shapespline.estimation import (
 from shapespline.frame import WorkingFrame, reversed_curve
 from shapespline.joining import joined
 from shapespline.knots import check_count, check_degree
-from shapespline.large import fit_all_in_passes
 from shapespline.optimization import checked_weights, optimize
 from shapespline.ordering import looks_shuffled
 from shapespline.outliers import find_outliers
 from shapespline.placement import dominant_start, uniform_start
 from shapespline.progress import Watch
+from shapespline.promise import fit_promised
 from shapespline.tolerance import (
     Effort,
     Ends,
@@ -42,19 +42,15 @@ from shapespline.tolerance import (
     fit_within,
     tolerance_length,
 )
-from shapespline.uncrossing import uncrossed
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
     from shapespline.balance import Balanced
     from shapespline.drawing import Fit
     from shapespline.optimization import Callback
-    from shapespline.refitting import Tangents
     from shapespline.typing import ArrayLike, IntArray
 
 Knots = Literal["balanced", "dominant", "uniform"]
-# So many points are fitted within a tolerance in passes over chunks, where nothing asks for more.
-MANY_POINTS = 50_000
 # What least squares of a given size starts from.
 STARTS = {"balanced": balanced_start, "dominant": dominant_start, "uniform": uniform_start}
 
@@ -124,7 +120,9 @@ def fit_curve(
     effort : {"fast", "balanced", "smallest"}
         How long to search.
     weights : array_like, shape (n,), optional
-        One positive weight per point, for least squares.
+        One positive weight per point. In least squares they multiply the squared distances; within
+        a tolerance a point of weight w > 1 is kept within tolerance / w, and a lower weight loosens
+        nothing.
     knots : {"balanced", "dominant", "uniform"}
         With a number of control points: spread until every span errs as much, or for comparison
         at dominant points or equally spaced.
@@ -228,28 +226,18 @@ def fit_curve(
                     f"{name} does not act with n_control_points: leave one of them out"
                 )
     if tolerance is not None:
-        if weights is not None:
-            raise InvalidInputError("weights act in least squares only: leave out the tolerance")
-        length = tolerance_length(tolerance, contour)
-        held = checked_held(contour, ends, end_tangents, through)
-        watch = Watch(callback, time_limit)
-        corners = checked_corners(corners, len(contour))
-        found = None
-        if len(contour) >= MANY_POINTS and not (held.anything or symmetric):
-            found = fit_all_in_passes(contour, length, degree, corners, form, effort, watch)
-        if found is not None and (found.kept or watch.ended_as):
-            return found
-        found = fit_within(contour, length, degree, corners, form, held, symmetric, effort, watch)
-        if form == "spline" or held.anything or symmetric or watch.ended_as:
-            return found
-
-        def closer(part: Contour, within: float, tangents: Tangents) -> Fit:
-            free = isinstance(corners, str) and corners == "free"
-            ends = checked_held(part, "fixed", None if free else tangents, None)
-            among = corners if corners is None or isinstance(corners, str) else "auto"
-            return fit_within(part, within, degree, among, form, ends, False, effort, watch)
-
-        return uncrossed([contour], [found], closer)[0]
+        return fit_promised(
+            contour,
+            tolerance_length(tolerance, contour),
+            degree,
+            corners,
+            form,
+            checked_held(contour, ends, end_tangents, through),
+            symmetric,
+            effort,
+            weights,
+            Watch(callback, time_limit),
+        )
     if end_tangents is not None or through is not None or symmetric:
         raise InvalidInputError(
             "end_tangents, through and symmetric act within a tolerance: give one"

@@ -188,6 +188,13 @@ def checked_weights(weights: ArrayLike | None, contour: Contour) -> FloatArray |
     """One weight per contour point: those of points that coincide add up."""
     if weights is None:
         return None
+    summed = np.zeros(len(contour))
+    np.add.at(summed, contour.source, given_weights(weights, contour))
+    return summed
+
+
+def given_weights(weights: ArrayLike, contour: Contour) -> FloatArray:
+    """One positive weight for each point that was given."""
     given = float_array(weights, "weights")
     if given.shape != (contour.n_given,):
         raise InvalidInputError(
@@ -195,9 +202,7 @@ def checked_weights(weights: ArrayLike | None, contour: Contour) -> FloatArray |
         )
     if not (np.isfinite(given).all() and (given > 0).all()):
         raise InvalidInputError("weights must be positive and finite; leave points out instead")
-    summed = np.zeros(len(contour))
-    np.add.at(summed, contour.source, given)
-    return summed
+    return given
 
 
 def _start_parameters(start: Start, contour: Contour) -> FloatArray:

@@ -1,0 +1,164 @@
+"""Points that weigh more than one are kept within a smaller distance than the tolerance.
+
+Only the pieces that hold such points are fitted closer, where the fit allows it; one spline, and
+pieces that hold more than their data, are fitted closer as a whole.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.drawing import Status
+from shapespline.footpoint import nearest
+from shapespline.joining import joined
+from shapespline.optimization import given_weights
+from shapespline.refitting import (
+    Window,
+    fitted_again,
+    turned_apart,
+    verified_row,
+    windows_around,
+)
+from shapespline.trails import Row
+from shapespline.verification import verified_fit
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from shapespline.contour import Contour
+    from shapespline.curve import BSplineCurve
+    from shapespline.drawing import Fit
+    from shapespline.refitting import Refit
+    from shapespline.typing import ArrayLike, FloatArray
+
+    Whole = Callable[[float], Fit]
+
+# How many neighbours go with a piece that holds heavy points: at first none, at last those that
+# share its nodes, which may be what is too far away.
+BESIDE = (0, 1, 2)
+# Parts of the tolerance within which everything is fitted; at last within the least limit.
+CLOSER = (0.7, 0.5, 0.25, 0.0)
+
+
+class Limits(NamedTuple):
+    """How near the curve is to come to each point of a contour: tolerance / weight, or less."""
+
+    lengths: FloatArray
+    tolerance: float
+
+    @classmethod
+    def of(cls, weights: ArrayLike, contour: Contour, tolerance: float) -> Limits:
+        """Of points that coincide the heaviest counts; a weight below one loosens nothing.
+
+        Examples
+        --------
+        >>> from shapespline import Contour
+        >>> contour = Contour([(0, 0), (1, 0), (1, 1)], closed=False)
+        >>> Limits.of([0.5, 1, 4], contour, 0.2).lengths.tolist()
+        [0.2, 0.2, 0.05]
+        """
+        given = given_weights(weights, contour)
+        heaviest = np.ones(len(contour))
+        np.maximum.at(heaviest, contour.source, given)
+        return cls(tolerance / heaviest, tolerance)
+
+    def missed(self, curve: BSplineCurve, contour: Contour) -> NDArray[np.bool_]:
+        """Which points are farther from a curve than their limit, among those that have one."""
+        missed = np.zeros(len(contour), dtype=bool)
+        heavy = np.flatnonzero(self.lengths < self.tolerance)
+        distances_sq = nearest(curve, contour.points[heavy]).distances_sq
+        missed[heavy] = distances_sq > self.lengths[heavy] ** 2
+        return missed
+
+
+def weighted(fit: Fit, limits: Limits, refit: Refit | None, whole: Whole) -> Fit:
+    """A fit that keeps its tolerance and comes as near to heavy points as their limits say.
+
+    ``refit`` is that of `fitted_again`, None if pieces cannot be fitted apart; ``whole`` fits
+    everything within a distance.
+    """
+    if not fit.kept or _follows(fit, limits):
+        return fit
+    kept = []
+    if refit is not None:
+        kept.append(verified_row(_closer(fit, limits, refit)))
+    # What is smooth everywhere may stay so for as few points.
+    if refit is None or not fit.sections or not _follows(kept[0], limits):
+        kept.append(_closer_whole(fit, limits, whole))
+    kept = [found for found in kept if found.kept and _follows(found, limits)]
+    if kept:
+        return min(kept, key=lambda found: found.n_stored_points)
+    n_missed = np.count_nonzero(limits.missed(fit.spline, fit.contour))
+    return replace(
+        fit,
+        status=Status.EXCEEDED.saying(
+            f"{fit.status.value}; but {n_missed} points are farther away than tolerance / weight:"
+            " take a larger tolerance or smaller weights"
+        ),
+    )
+
+
+def _follows(fit: Fit, limits: Limits) -> bool:
+    return not limits.missed(fit.spline, fit.contour).any()
+
+
+def _closer_whole(fit: Fit, limits: Limits, whole: Whole) -> Fit:
+    """Everything fitted closer, as far as need be."""
+    again, least = fit, float(limits.lengths.min())
+    for part in CLOSER:
+        within = max(part * fit.tolerance, least)
+        found = whole(within)
+        again = verified_fit(
+            fit.contour,
+            found.spline,
+            tolerance=fit.tolerance,
+            method=found.method,
+            history=found.history,
+            sections=found.sections,
+        )
+        if within <= least or (again.kept and _follows(again, limits)):
+            break
+    return again
+
+
+def _closer(fit: Fit, limits: Limits, refit: Refit) -> Row:
+    """The row of the fit with the pieces that miss a limit fitted again, and those beside them."""
+    row = Row.of(0, fit)
+    for beside in BESIDE:
+        found = _missing(row, limits)
+        if not found:
+            break
+        if fit.closed and beside:
+            row, found = turned_apart(row, found)
+        lengths = _along(row, limits)
+        windows = [
+            Window(
+                begin, end, float(lengths[row.parts[begin].begin : row.parts[end - 1].end].min())
+            )
+            for begin, end in windows_around(found, beside, len(row.parts))
+        ]
+        row = fitted_again(row, windows, refit)
+    return row
+
+
+def _missing(row: Row, limits: Limits) -> list[int]:
+    """The parts with a point that is too far from all of them."""
+    curve = joined([part.piece for part in row.parts], row.fit.degree)
+    missed = np.roll(limits.missed(curve, row.fit.contour), -_first(row))
+    return [k for k, part in enumerate(row.parts) if missed[part.begin : part.end].any()]
+
+
+def _along(row: Row, limits: Limits) -> FloatArray:
+    """The limits in the order of a row."""
+    return np.roll(limits.lengths, -_first(row))
+
+
+def _first(row: Row) -> int:
+    """The contour's index of the first point of a row."""
+    contour = row.fit.contour
+    return int(np.abs(contour.arc_length - row.trail.along[0] % contour.length).argmin())
