@@ -35,7 +35,12 @@ struct OutlineSearch {
         if (smooth) smoother.run(false);
         reducer.run();
         for (int round = 0; round < 2 && release_corners(ring); ++round) reducer.run();
-        if (smooth) smoother.run(true);
+        if (smooth) {
+            const int cost = ring.cost();
+            smoother.run(true);
+            // Points that made joints smooth may be too many now that they are.
+            if (ring.cost() > cost) reducer.run();
+        }
         return ring.sections();
     }
 
