@@ -95,7 +95,7 @@ class BezierSquares {
     static constexpr int kTrials = 6, kFirstSteps = 3;
     static constexpr double kLeastScale = 1e-10, kLeastDamping = 1e-6, kRaise = 8.0, kLower = 6.0;
     // Of a parameter: the part of the way that it goes with the control points, and the most that
-    // it goes. The rest is a Newton step's: feet that are exact too early miss solutions (measured).
+    // it goes. Feet that are exact too early miss solutions (measured).
     static constexpr double kShiftPart = 0.5, kLargestShift = 0.125;
 
     using Numbers = PairArray<kMostData>;
