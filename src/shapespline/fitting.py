@@ -122,7 +122,7 @@ def fit_curve(
     weights : array_like, shape (n,), optional
         One positive weight per point. In least squares they multiply the squared distances; within
         a tolerance a point of weight w > 1 is kept within tolerance / w, and a lower weight loosens
-        nothing.
+        nothing. Few points are held exactly by ``through``, and cheaper.
     knots : {"balanced", "dominant", "uniform"}
         With a number of control points: spread until every span errs as much, or for comparison
         at dominant points or equally spaced.
