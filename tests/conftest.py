@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import settings
 
+from shapespline.__main__ import main
 from shapespline.contour import Contour
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -51,3 +53,20 @@ def more_outlines():
         return [(path.stem, read_outline(path, None)) for path in paths[:most]]
 
     return contours
+
+
+@pytest.fixture
+def shapespline(monkeypatch, capsys):
+    """Run the command line in this process: exit code, standard output, standard error."""
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["shapespline", *map(str, arguments)])
+        code = 0
+        try:
+            main()
+        except SystemExit as stop:
+            code = stop.code or 0
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return run
