@@ -112,3 +112,14 @@ def test_what_is_not_kept_is_said():
     assert told.status != ss.Status.KEPT
     assert f"but {n_missed} points are farther away than tolerance / weight" in told.status.value
     np.testing.assert_array_equal(told.spline.control_points, fit.spline.control_points)
+
+
+def test_few_points_of_a_great_weight_are_gone_through():
+    at = [20, 200, 310]
+    weights = np.ones(N)
+    weights[at] = 1e9
+    fit = ss.fit_curve(FLOWER, closed=True, tolerance=TOLERANCE, weights=weights)
+    through = ss.fit_curve(FLOWER, closed=True, tolerance=TOLERANCE, through=at)
+    assert fit.kept
+    assert distances(fit)[at].max() <= 1e-9 * TOLERANCE
+    assert fit.n_stored_points <= 2 * through.n_stored_points

@@ -14,6 +14,8 @@ from shapespline.uncrossing import uncrossed
 from shapespline.weighting import Limits, weighted
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.contour import Contour
     from shapespline.drawing import Fit
     from shapespline.held import Held
@@ -46,9 +48,9 @@ def fit_promised(
     def whole(within: float) -> Fit:
         return fit_within(contour, within, degree, corners, form, held, symmetric, effort, watch)
 
-    def closer(part: Contour, within: float, tangents: Tangents) -> Fit:
+    def closer(part: Contour, within: float, tangents: Tangents, through: Sequence[int]) -> Fit:
         free = isinstance(corners, str) and corners == "free"
-        ends = checked_held(part, "fixed", None if free else tangents, None)
+        ends = checked_held(part, "fixed", None if free else tangents, through or None)
         among = corners if corners is None or isinstance(corners, str) else "auto"
         return fit_within(part, within, degree, among, form, ends, False, effort, watch)
 

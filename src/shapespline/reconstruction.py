@@ -18,6 +18,8 @@ from shapespline.uncrossing import uncrossed
 from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.drawing import Fit, Piece
     from shapespline.optimization import Callback
     from shapespline.refitting import Tangents
@@ -104,7 +106,7 @@ def fit_shape(
             outliers=outliers,
         )
 
-    def closer(part: Contour, within: float, tangents: Tangents) -> Fit:
+    def closer(part: Contour, within: float, tangents: Tangents, through: Sequence[int]) -> Fit:
         free = corners == "free" or all(tangent is None for tangent in tangents)
         return fit_curve(
             part,
@@ -114,6 +116,7 @@ def fit_shape(
             effort=effort,
             ends="fixed",
             end_tangents=None if free else tangents,
+            through=through or None,
         )
 
     if shared_boundaries:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from shapespline.trails import Trail
     from shapespline.typing import FloatArray
 
-    Refit = Callable[[Contour, float, "Tangents"], Fit]
+    Refit = Callable[[Contour, float, "Tangents", Sequence[int]], Fit]
     # The points of a window, of its row and trail, as they are to be fitted.
     Aim = Callable[[Row, Sequence[Part], Trail], FloatArray]
 
@@ -34,11 +34,15 @@ Tangents = tuple["FloatArray | None", "FloatArray | None"]
 
 
 class Window(NamedTuple):
-    """Neighbours ``begin`` up to ``end`` in a row, and the distance to fit them within."""
+    """Neighbours ``begin`` up to ``end`` in a row, and the distance to fit them within.
+
+    They go through the points ``through`` of its trail.
+    """
 
     begin: int
     end: int
     within: float
+    through: tuple[int, ...] = ()
 
 
 def turned_apart(row: Row, found: Sequence[int]) -> tuple[Row, list[int]]:
@@ -74,7 +78,7 @@ def fitted_again(row: Row, windows: Sequence[Window], refit: Refit, aim: Aim | N
     """The row with some windows of its parts fitted again.
 
     ``refit`` fits an open row of points within a distance, with its ends and, where given, its end
-    tangents.
+    tangents, through some of the points.
     """
     parts = list(row.parts)
     for window in reversed(windows):
@@ -93,9 +97,12 @@ def _window_again(row: Row, window: Window, refit: Refit, aim: Aim | None) -> tu
     before_last = _beyond(trail.points[::-1], last[-1], within)
     inner = points[beyond : len(points) - before_last]
     contour = Contour.silently(np.concatenate([first[:1], inner, last[-1:]]), closed=False)
-    fit = refit(contour, within, _tangents(row, window))
+    before = parts[0].begin + beyond - 1
+    among = [at - before for at in window.through if 0 < at - before <= len(inner)]
+    through = contour.source[among].tolist() if among else []
+    fit = refit(contour, within, _tangents(row, window), through)
     if not fit.kept:
-        fit = refit(contour, within, (None, None))
+        fit = refit(contour, within, (None, None), through)
     return located(trail, pieces_of(fit), row.fit.tolerance, parts[0].begin)
 
 
@@ -107,7 +114,7 @@ def _beyond(points: FloatArray, node: FloatArray, within: float) -> int:
 def _tangents(row: Row, window: Window) -> Tangents:
     """The tangents at the outer nodes of a window, where its neighbours go on smoothly."""
     pieces, closed = [part.piece for part in row.parts], row.fit.closed
-    begin, end, _ = window
+    begin, end = window.begin, window.end
     tangents: list[FloatArray | None] = [None, None]
     if (begin > 0 or closed) and abs(turn_between(pieces[begin - 1], pieces[begin])) < SMOOTH:
         tangents[0] = np.diff(pieces[begin].control_points[:2], axis=0)[0]

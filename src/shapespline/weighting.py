@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 # How many neighbours go with a piece that holds heavy points: at first none, at last those that
 # share its nodes, which may be what is too far away.
 BESIDE = (0, 1, 2)
+# A window goes through so many points that are too far away; closer to all its points beyond.
+FEW = 8
 # Parts of the tolerance within which everything is fitted; at last within the least limit.
 CLOSER = (0.7, 0.5, 0.25, 0.0)
 
@@ -130,27 +132,37 @@ def _closer(fit: Fit, limits: Limits, refit: Refit) -> Row:
     """The row of the fit with the pieces that miss a limit fitted again, and those beside them."""
     row = Row.of(0, fit)
     for beside in BESIDE:
-        found = _missing(row, limits)
+        missed, found = _missed(row, limits)
         if not found:
             break
         if fit.closed and beside:
-            row, found = turned_apart(row, found)
-        lengths = _along(row, limits)
+            row, _ = turned_apart(row, found)
+            missed, found = _missed(row, limits)
         windows = [
-            Window(
-                begin, end, float(lengths[row.parts[begin].begin : row.parts[end - 1].end].min())
-            )
+            _window(row, begin, end, missed, limits, beside)
             for begin, end in windows_around(found, beside, len(row.parts))
         ]
         row = fitted_again(row, windows, refit)
     return row
 
 
-def _missing(row: Row, limits: Limits) -> list[int]:
-    """The parts with a point that is too far from all of them."""
+def _window(
+    row: Row, begin: int, end: int, missed: NDArray[np.bool_], limits: Limits, beside: int
+) -> Window:
+    """Parts to fit again: through the points that are missed if they are few, or else closer."""
+    first, last = row.parts[begin].begin, row.parts[end - 1].end
+    few = first + np.flatnonzero(missed[first:last])
+    if len(few) <= FEW and beside < BESIDE[-1]:
+        return Window(begin, end, limits.tolerance, tuple(few.tolist()))
+    return Window(begin, end, float(_along(row, limits)[first:last].min()))
+
+
+def _missed(row: Row, limits: Limits) -> tuple[NDArray[np.bool_], list[int]]:
+    """Which points are too far from the curve, in the order of a row; and in which parts."""
     curve = joined([part.piece for part in row.parts], row.fit.degree)
     missed = np.roll(limits.missed(curve, row.fit.contour), -_first(row))
-    return [k for k, part in enumerate(row.parts) if missed[part.begin : part.end].any()]
+    found = [k for k, part in enumerate(row.parts) if missed[part.begin : part.end].any()]
+    return missed, found
 
 
 def _along(row: Row, limits: Limits) -> FloatArray:
