@@ -106,7 +106,7 @@ def test_weights_are_checked_before_any_work():
 def test_what_is_not_kept_is_said():
     fit = ss.fit_curve(FLOWER, closed=True, tolerance=TOLERANCE, effort="fast")
     limits = Limits.of(heavy(1e6), fit.contour, TOLERANCE)
-    told = weighted(fit, limits, None, lambda _: fit)
+    told = weighted(fit, limits, None, lambda *_: fit)
     n_missed = np.count_nonzero(distances(fit) * heavy(1e6) > TOLERANCE)
     assert n_missed > 30
     assert told.status != ss.Status.KEPT

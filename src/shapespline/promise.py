@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 from shapespline.large import fit_all_in_passes
 from shapespline.tolerance import checked_corners, checked_held, fit_within
 from shapespline.uncrossing import uncrossed
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
     from shapespline.progress import Watch
     from shapespline.refitting import Tangents
     from shapespline.tolerance import Effort, Form
-    from shapespline.typing import ArrayLike
+    from shapespline.typing import ArrayLike, IntArray
 
 # So many points are fitted in passes over chunks, where nothing asks for more.
 MANY_POINTS = 50_000
@@ -45,8 +47,12 @@ def fit_promised(
     limits = None if weights is None else Limits.of(weights, contour, tolerance)
     apart = not (form == "spline" or held.anything or symmetric)
 
-    def whole(within: float) -> Fit:
-        return fit_within(contour, within, degree, corners, form, held, symmetric, effort, watch)
+    def whole(within: float, through: IntArray | None = None) -> Fit:
+        holding = held
+        if through is not None:
+            more = checked_held(contour, "free", None, np.union1d(held.through, through))
+            holding = held._replace(ends=held.ends or more.ends, through=more.through)
+        return fit_within(contour, within, degree, corners, form, holding, symmetric, effort, watch)
 
     def closer(part: Contour, within: float, tangents: Tangents, through: Sequence[int]) -> Fit:
         free = isinstance(corners, str) and corners == "free"

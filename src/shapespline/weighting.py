@@ -1,7 +1,7 @@
 """Points that weigh more than one are kept within a smaller distance than the tolerance.
 
-Only the pieces that hold such points are fitted closer, where the fit allows it; one spline, and
-pieces that hold more than their data, are fitted closer as a whole.
+A curve goes through a few such points. Of many only the pieces that hold them are fitted closer,
+where the fit allows it; one spline, and pieces that hold more than their data, as a whole.
 """
 
 from __future__ import annotations
@@ -34,9 +34,10 @@ if TYPE_CHECKING:
     from shapespline.curve import BSplineCurve
     from shapespline.drawing import Fit
     from shapespline.refitting import Refit
-    from shapespline.typing import ArrayLike, FloatArray
+    from shapespline.typing import ArrayLike, FloatArray, IntArray
 
-    Whole = Callable[[float], Fit]
+    # Everything within a distance, through some of the points.
+    Whole = Callable[[float, "IntArray | None"], Fit]
 
 # How many neighbours go with a piece that holds heavy points: at first none, at last those that
 # share its nodes, which may be what is too far away.
@@ -82,31 +83,35 @@ def weighted(fit: Fit, limits: Limits, refit: Refit | None, whole: Whole) -> Fit
     """A fit that keeps its tolerance and comes as near to heavy points as their limits say.
 
     ``refit`` is that of `fitted_again`, None if pieces cannot be fitted apart; ``whole`` fits
-    everything within a distance.
+    everything within a distance. The smallest that follows is taken.
     """
-    if not fit.kept or _follows(fit, limits):
+    missed = np.flatnonzero(limits.missed(fit.spline, fit.contour))
+    if not fit.kept or not len(missed):
         return fit
-    kept = []
+    tried = []
     if refit is not None:
-        kept.append(verified_row(_closer(fit, limits, refit)))
+        tried.append(verified_row(_closer(fit, limits, refit)))
+        if len(missed) <= FEW:
+            tried.append(whole(fit.tolerance, missed))
     # What is smooth everywhere may stay so for as few points.
-    if refit is None or not fit.sections or not _follows(kept[0], limits):
-        kept.append(_closer_whole(fit, limits, whole))
-    kept = [found for found in kept if found.kept and _follows(found, limits)]
-    if kept:
-        return min(kept, key=lambda found: found.n_stored_points)
-    n_missed = np.count_nonzero(limits.missed(fit.spline, fit.contour))
+    smooth = not fit.sections and len(missed) > FEW
+    if smooth or not any(_follows(found, limits) for found in tried):
+        tried.append(_closer_whole(fit, limits, whole))
+    following = [found for found in tried if _follows(found, limits)]
+    if following:
+        return min(following, key=lambda found: found.n_stored_points)
     return replace(
         fit,
         status=Status.EXCEEDED.saying(
-            f"{fit.status.value}; but {n_missed} points are farther away than tolerance / weight:"
+            f"{fit.status.value}; but {len(missed)} points are farther away than tolerance / weight:"
             " take a larger tolerance or smaller weights"
         ),
     )
 
 
 def _follows(fit: Fit, limits: Limits) -> bool:
-    return not limits.missed(fit.spline, fit.contour).any()
+    """Whether a fit keeps its tolerance and all limits."""
+    return fit.kept and not limits.missed(fit.spline, fit.contour).any()
 
 
 def _closer_whole(fit: Fit, limits: Limits, whole: Whole) -> Fit:
@@ -114,7 +119,7 @@ def _closer_whole(fit: Fit, limits: Limits, whole: Whole) -> Fit:
     again, least = fit, float(limits.lengths.min())
     for part in CLOSER:
         within = max(part * fit.tolerance, least)
-        found = whole(within)
+        found = whole(within, None)
         again = verified_fit(
             fit.contour,
             found.spline,
@@ -123,7 +128,7 @@ def _closer_whole(fit: Fit, limits: Limits, whole: Whole) -> Fit:
             history=found.history,
             sections=found.sections,
         )
-        if within <= least or (again.kept and _follows(again, limits)):
+        if within <= least or _follows(again, limits):
             break
     return again
 
