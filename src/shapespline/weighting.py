@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 # How many neighbours go with a piece that holds heavy points: at first none, at last those that
 # share its nodes, which may be what is too far away.
 BESIDE = (0, 1, 2)
+# Parts of it within which one curve is still followed closely for the sake of a few points.
+MODEST = 0.1
 # A window goes through so many points that are too far away; closer to all its points beyond.
 FEW = 8
 # Parts of the tolerance within which everything is fitted; at last within the least limit.
@@ -93,9 +95,9 @@ def weighted(fit: Fit, limits: Limits, refit: Refit | None, whole: Whole) -> Fit
         tried.append(verified_row(_closer(fit, limits, refit)))
         if len(missed) <= FEW:
             tried.append(whole(fit.tolerance, missed))
-    # What is smooth everywhere may stay so for as few points.
-    smooth = not fit.sections and len(missed) > FEW
-    if smooth or not any(_follows(found, limits) for found in tried):
+    # What is smooth everywhere may stay so for as few points, unless a few ask for very much.
+    modest = len(missed) > FEW or limits.lengths.min() >= MODEST * fit.tolerance
+    if (not fit.sections and modest) or not any(_follows(found, limits) for found in tried):
         tried.append(_closer_whole(fit, limits, whole))
     following = [found for found in tried if _follows(found, limits)]
     if following:
@@ -103,8 +105,8 @@ def weighted(fit: Fit, limits: Limits, refit: Refit | None, whole: Whole) -> Fit
     return replace(
         fit,
         status=Status.EXCEEDED.saying(
-            f"{fit.status.value}; but {len(missed)} points are farther away than tolerance / weight:"
-            " take a larger tolerance or smaller weights"
+            f"{fit.status.value}; but {len(missed)} points are farther away than tolerance /"
+            " weight: take a larger tolerance or smaller weights"
         ),
     )
 
