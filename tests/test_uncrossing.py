@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +16,12 @@ from shapespline.crossings import crossing_pairs, self_crossings
 from shapespline.drawing import Piece
 from shapespline.exact import sampled
 from shapespline.footpoint import nearest
+from shapespline.joining import joined
 from shapespline.sections import fit_pieces
 from shapespline.slits import Sides, moved
 from shapespline.trails import Row, Trail, curve_of, located
+from shapespline.uncrossing import _no_larger_than_data
+from shapespline.verification import verified_fit
 
 IMAGES = Path(__file__).resolve().parents[1] / "examples" / "data" / "images"
 
@@ -178,3 +182,20 @@ def test_strokes_that_cross_in_a_vertex_cross():
     drawing = ss.fit_shape(shape, tolerance=0.3)
     assert all(fit.kept and not fit.status.value.endswith("do not") for fit in drawing)
     assert drawing.fits[0].n_stored_points == 2
+
+
+def test_what_comes_apart_stores_no_more_points_than_the_data():
+    contour = ss.Contour(SLITS[0][0], closed=True)
+    halves = [
+        Piece("line", 1, np.array([0.0, 0.0, 1.0, 1.0]), np.array(ends))
+        for a, b in pairwise(contour.polyline)
+        for ends in ((a, (a + b) / 2), ((a + b) / 2, b))
+    ]
+    larger = verified_fit(
+        contour, joined(halves, 3), tolerance=0.01, method="sections", sections=tuple(halves)
+    )
+    assert larger.n_stored_points == 2 * len(contour)
+    smaller = _no_larger_than_data(larger)
+    assert smaller.kept
+    assert smaller.n_stored_points == len(contour)
+    assert _no_larger_than_data(smaller) is smaller

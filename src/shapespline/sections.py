@@ -189,7 +189,7 @@ def fit_pieces(
         return found
     results.append(verified_pieces(work.frame, lines, contour, tolerance, degree, held))
     if not any(result.kept for result in results):
-        every = _through_all(whole.frame.contour)
+        every = through_all(whole.frame.contour)
         results.append(verified_pieces(work.frame, every, contour, tolerance, degree, held))
     return min(
         results,
@@ -273,8 +273,8 @@ def _n_chords(outline: SearchOutline) -> int:
     return len(_kernels.thinned(contour.polyline, outline.tolerance, np.inf, None)) - contour.closed
 
 
-def _through_all(contour: Contour) -> tuple[Piece, ...]:
-    """A line from each point to the next."""
+def through_all(contour: Contour) -> tuple[Piece, ...]:
+    """A line from each point to the next; it crosses itself only where the data do."""
     knots, polyline = np.array([0.0, 0.0, 1.0, 1.0]), contour.polyline
     return tuple(Piece("line", 1, knots, polyline[i : i + 2]) for i in range(len(polyline) - 1))
 

@@ -16,6 +16,7 @@ import numpy as np
 from shapespline.crossings import crossing_pairs, self_crossings
 from shapespline.exact import chords
 from shapespline.footpoint import nearest
+from shapespline.joining import joined
 from shapespline.refitting import (
     Window,
     fitted_again,
@@ -23,8 +24,10 @@ from shapespline.refitting import (
     verified_row,
     windows_around,
 )
+from shapespline.sections import through_all
 from shapespline.slits import Sides, moved
 from shapespline.trails import SAMPLING_PART, Part, Row, curve_of
+from shapespline.verification import verified_fit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -95,7 +98,7 @@ def uncrossed(contours: Sequence[Contour], fits: Sequence[Fit], refit: Refit) ->
     result = list(fits)
     for owner, (_, row) in best.items():
         if row is not begun[owner]:
-            result[owner] = verified_row(row)
+            result[owner] = _no_larger_than_data(verified_row(row))
         lines[owner] = _line(result[owner])
     still = {owner for pair in _new_crossings(contours, lines) for owner in pair}
     return [_told(fit) if owner in still else fit for owner, fit in enumerate(result)]
@@ -104,6 +107,17 @@ def uncrossed(contours: Sequence[Contour], fits: Sequence[Fit], refit: Refit) ->
 def _line(fit: Fit) -> FloatArray:
     """A fit as a polyline."""
     return chords(fit.spline, SAMPLING_PART * fit.tolerance)[0]
+
+
+def _no_larger_than_data(fit: Fit) -> Fit:
+    """The fit, or lines through all points where these are fewer."""
+    lines = through_all(fit.contour)
+    if fit.n_stored_points <= len(lines) + (not fit.closed):
+        return fit
+    spline = joined(lines, fit.degree)
+    return verified_fit(
+        fit.contour, spline, tolerance=fit.tolerance, method=fit.method, sections=lines
+    )
 
 
 def _told(fit: Fit) -> Fit:
