@@ -72,8 +72,8 @@ class BezierSquares {
                 if (solve(damping_)) {
                     if (promised() < enough * value) break;
                     move_points(*next_);
-                    move_parameters(*next_);
-                    project(*next_, 1);
+                    next_->u = now_->u;
+                    project(*next_, kNewtonSteps);
                     next_value = cost(*next_);
                     lower = next_value < value;
                 }
@@ -92,11 +92,8 @@ class BezierSquares {
 
   private:
     static constexpr int kInner = Degree - 1, kUnknowns = 2 * kInner;
-    static constexpr int kTrials = 6, kFirstSteps = 3;
+    static constexpr int kTrials = 6, kFirstSteps = 6, kNewtonSteps = 2;
     static constexpr double kLeastScale = 1e-10, kLeastDamping = 1e-6, kRaise = 8.0, kLower = 6.0;
-    // Of a parameter: the part of the way that it goes with the control points, and the most that
-    // it goes. Feet that are exact too early miss solutions (measured).
-    static constexpr double kShiftPart = 0.5, kLargestShift = 0.125;
 
     using Numbers = PairArray<kMostData>;
     using Unknowns = std::array<double, kUnknowns>;
@@ -190,12 +187,6 @@ class BezierSquares {
             return {3.0 * u * rest * rest, 3.0 * u * u * rest};
     }
 
-    // What the elimination of a parameter divides by.
-    Pair damped_speed_sq(int k) const {
-        const Pair tx = now_->tx.pair(k), ty = now_->ty.pair(k);
-        return (1.0 + damping_) * (tx * tx + ty * ty) + both(1e-300);
-    }
-
     // Normal equations; with eliminate false the parameters stay.
     void assemble(bool eliminate) {
         constexpr int n_products = kInner * (kInner + 1) / 2;
@@ -204,7 +195,8 @@ class BezierSquares {
         for (int k = 0; k < n_pairs(); ++k) {
             const Pair tx = now_->tx.pair(k), ty = now_->ty.pair(k);
             const Pair rx = now_->rx.pair(k), ry = now_->ry.pair(k), w = weight_.pair(k);
-            const Pair h = eliminate ? both(1.0) / damped_speed_sq(k) : both(0.0);
+            const Pair damped_speed_sq = (1.0 + damping_) * (tx * tx + ty * ty) + both(1e-300);
+            const Pair h = eliminate ? both(1.0) / damped_speed_sq : both(0.0);
             const Pair along = (rx * tx + ry * ty) * h, wh = w * h;
             const Pair wxx = w - wh * tx * tx, wxy = -wh * tx * ty, wyy = w - wh * ty * ty;
             const Pair wx = w * (rx - tx * along), wy = w * (ry - ty * along);
@@ -271,22 +263,6 @@ class BezierSquares {
         state.points = now_->points;
         for (int i = 0; i < kInner; ++i)
             state.points[i + 1] += Vec2{step_[2 * i], step_[2 * i + 1]};
-    }
-
-    // Parameters move with the control points, part of the way that the linearised problem has.
-    void move_parameters(State &state) const {
-        for (int k = 0; k < n_pairs(); ++k) {
-            const auto basis = inner_basis(now_->u.pair(k));
-            Pair rx = now_->rx.pair(k), ry = now_->ry.pair(k);
-            for (int i = 0; i < kInner; ++i) {
-                rx += step_[2 * i] * basis[i];
-                ry += step_[2 * i + 1] * basis[i];
-            }
-            const Pair shift =
-                (rx * now_->tx.pair(k) + ry * now_->ty.pair(k)) / damped_speed_sq(k);
-            const Pair moved = clamped(kShiftPart * shift, -kLargestShift, kLargestShift);
-            state.u.pair(k) = clamped(now_->u.pair(k) - moved, 0.0, 1.0);
-        }
     }
 
     int size_ = 0;
