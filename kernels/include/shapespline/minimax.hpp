@@ -17,6 +17,8 @@ struct MinimaxLimits {
     // Rounds in which all data are within the tolerance but the curve between them is not: other
     // weights of the data seldom help.
     int strays = std::numeric_limits<int>::max();
+    // Beziers are fitted like all others: where joints are free that saves a point of fifty.
+    bool general = false;
 };
 
 // Two are enough where much is tried and little succeeds, but where joints are free.

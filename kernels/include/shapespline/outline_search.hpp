@@ -91,7 +91,9 @@ struct OutlineSearch {
         const Index first = candidates.at[step.from], last = candidates.at[step.to];
         const Section start = blank_section(data, first, last, data[first], data[last], cost,
                                             largest_degree);
-        if (cost > 1) return fit_section(data, start, {tolerance, kPathRounds});
+        if (cost > 1)
+            return fit_section(data, start,
+                               {tolerance, kPathRounds, most_strays(false), !smooth});
         const ReachSearch search(data, candidates, tolerance, largest_degree, smooth, every);
         return {search.fits(1, first, last), 0.0, {start}};
     }

@@ -30,7 +30,7 @@ class ReachSearch {
                 int largest_degree, bool smooth, Index every)
         : data_(data),
           candidates_(candidates),
-          limits_{tolerance, kRounds, most_strays(smooth)},
+          limits_{tolerance, kRounds, most_strays(smooth), !smooth},
           largest_degree_(largest_degree),
           every_(static_cast<std::size_t>(every)) {}
 

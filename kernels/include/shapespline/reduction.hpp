@@ -161,7 +161,7 @@ class Reduction {
                               start_limits());
     }
     MinimaxLimits start_limits() const {
-        return {limits_.tolerance, kStartRounds, most_strays(limits_.smooth)};
+        return {limits_.tolerance, kStartRounds, most_strays(limits_.smooth), !limits_.smooth};
     }
 
     std::span<const Vec2> data_;

@@ -36,7 +36,7 @@ inline bool is_bezier(const Section &section) {
 // The same, fitted between its nodes.
 inline MinimaxResult fit_section(std::span<const Vec2> data, const Section &start,
                                  const MinimaxLimits &limits) {
-    if (is_bezier(start))
+    if (is_bezier(start) && !limits.general)
         return start.degree == 2 ? BezierFit<2>(data, start, limits).run()
                                  : BezierFit<3>(data, start, limits).run();
     const std::vector<Section> one{start};
@@ -48,7 +48,7 @@ inline MinimaxResult fit_section(std::span<const Vec2> data, const Section &star
 // Whether such a fit keeps the tolerance.
 inline bool section_fits(std::span<const Vec2> data, const Section &start,
                          const MinimaxLimits &limits) {
-    if (is_bezier(start))
+    if (is_bezier(start) && !limits.general)
         return start.degree == 2 ? BezierFit<2>(data, start, limits).succeeds()
                                  : BezierFit<3>(data, start, limits).succeeds();
     return fit_section(data, start, limits).kept;
