@@ -19,25 +19,26 @@ class JointSmoother {
           largest_degree_(largest_degree),
           gentle_(gentle) {}
 
-    // The last time a joint where the data hardly turn gets more points before it is given up.
+    // The first time neighbours are merged, too; the last time a joint where the data hardly turn
+    // gets more points before it is given up.
     void run(bool last) {
         most_raise_ = last ? kMostRaise : 0;
-        while (merge_one()) {
+        while (!last && merge_one()) {
         }
         if (ring_.closed()) start_at_corner();
         for (long i = 1; i < ring_.size(); ++i)
             if (ring_.at(i).required) bend(i);
         for (long i = 0; i < ring_.size(); ++i) mark(i);
         for (long i = 0; i < ring_.size();) i = align_chain(i);
-        if (ring_.closed() && ring_.size() > 1) align_seam();
+        if (ring_.closed() && ring_.size() > 1) smooth_seam();
     }
 
   private:
     static constexpr int kRounds = 20, kAlignRounds = 40, kStartRounds = 12, kMostRaise = 4;
     // A joint that turns more than this, in radians, is not worth the attempt.
     static constexpr double kSteepest = 0.785;
-    // In longer chains the sections are not raised one by one.
-    static constexpr long kLongChain = 12;
+    static constexpr double kTangent = 1.01 / 57.3;  // of a joint that was made tangent
+    static constexpr int kWidest = 2;  // sections on either side of one joint
 
     // A curve-curve joint that is no corner costs fewer points inside one spline: C1 saves one,
     // C2 two. The splines that fail are not tried again.
@@ -92,33 +93,48 @@ class JointSmoother {
         if (!align(i - 1, i, raise)) ring_.at(i).tangent = false;
     }
 
-    // Fits the chain of tangent joints from section i; returns the section to go on with. Where the
-    // tolerance forbids it, one curve after another gets a point more, then all of them, then the
-    // two sections that turn most some more if the data do not turn, lines too; then the chain is
-    // broken there, which is a corner after all (in a long chain at all that turn half as much).
+    // Fits the chain of tangent joints from section i as a whole; where the tolerance forbids it,
+    // one joint after another that is not tangent yet, required ones first. Returns the section to
+    // go on with.
     long align_chain(long i) {
         long last = i;
         while (last + 1 < ring_.size() && ring_.at(last + 1).tangent) ++last;
-        if (last == i) return last + 1;
-        if (align(i, last)) return last + 1;
+        if (last == i || align(i, last, std::vector<int>(last - i + 1, 0))) return last + 1;
         if (!turned_ && turn_to_stubs()) return i;
-        const auto turn = [&](long k) {  // what is required is given up last
-            return (ring_.at(k).required ? 1e-3 : 1.0) * std::fabs(ring_.turn(k));
-        };
-        long steepest = i + 1;
-        for (long k = i + 2; k <= last; ++k)
-            if (turn(k) > turn(steepest)) steepest = k;
-        const Section &bend = ring_.at(steepest);
-        const bool worth = bend.required || gentle_[ring_.origin(bend)] != 0;
-        for (int by = 2; worth && by <= most_raise_; by += 2) {
-            std::vector<int> raise(last - i + 1, 0);
-            raise[steepest - 1 - i] = raise[steepest - i] = by;
-            if (align(i, last, raise)) return last + 1;
-        }
-        const double least = last - i >= kLongChain ? 0.5 * turn(steepest) : 4.0;
         for (long k = i + 1; k <= last; ++k)
-            if (k == steepest || turn(k) >= least) ring_.at(k).tangent = false;
-        return i;
+            ring_.at(k).tangent = std::fabs(ring_.turn(k)) <= kTangent;
+        for (const bool required : {true, false})
+            for (long k = i + 1; k <= last; ++k)
+                if (!ring_.at(k).tangent && ring_.at(k).required == required) smooth(k);
+        return last + 1;
+    }
+
+    // Makes one joint tangent: by its neighbours, else with a point more in one of the curves next
+    // to it, in both, or two. Where the data do not turn lines get them too, and some more; else the
+    // joint is a corner after all.
+    void smooth(long k) {
+        const bool before = ring_.at(k - 1).curved(), after = ring_.at(k).curved();
+        const bool worth = ring_.at(k).required || gentle_[ring_.origin(ring_.at(k))] != 0;
+        std::vector<std::pair<int, int>> raises{{0, 0}};
+        if (before) raises.emplace_back(1, 0);
+        if (after) raises.emplace_back(0, 1);
+        if (before && after) raises.insert(raises.end(), {{1, 1}, {2, 2}});
+        for (int by = 2; worth && by <= most_raise_; by += 2) raises.emplace_back(by, by);
+        ring_.at(k).tangent = true;
+        for (const auto &raise : raises)
+            for (int side = 1; side <= kWidest; ++side)
+                if (align_around(k, side, raise)) return;
+        ring_.at(k).tangent = false;
+    }
+
+    // With so many sections on either side, the two beside the joint raised.
+    bool align_around(long k, int side, std::pair<int, int> by) {
+        const long first = std::max(k - side, 0L);
+        const long last = std::min(k - 1 + side, ring_.size() - 1);
+        std::vector<int> raise(last - first + 1, 0);
+        raise[k - 1 - first] = by.first;
+        raise[k - first] = by.second;
+        return align(first, last, raise);
     }
 
     // Short curves at both ends of an open outline turn into the directions of their stubs; once.
@@ -168,47 +184,21 @@ class JointSmoother {
         return false;
     }
 
-    // The joint where the sections of an outline without corners begin and end: turned inside the
-    // row, then fitted with its neighbours.
-    void align_seam() {
+    // The joint where the sections of an outline without corners begin and end, turned inside the
+    // row.
+    void smooth_seam() {
         if (!smooth_at(0)) return;
         const long seam = ring_.size() - ring_.size() / 2;
         ring_.rotate(ring_.size() / 2);
-        ring_.at(seam).tangent = true;
-        if (!align(std::max(seam - 2, 0L), std::min(seam + 1, ring_.size() - 1)))
-            ring_.at(seam).tangent = false;
+        smooth(seam);
     }
 
-    // Fits sections first .. last with their tangent joints, some of them raised if need be.
-    bool align(long first, long last) {
-        for (const std::vector<int> &raise : raises(first, last))
-            if (align(first, last, raise)) return true;
-        return false;
-    }
-
+    // Fits sections first .. last with their tangent joints, some of them raised.
     bool align(long first, long last, const std::vector<int> &raise) {
         std::vector<Section> window = ring_.window(first, last);
         for (std::size_t k = 0; k < window.size(); ++k)
             if (raise[k] > 0) window[k] = raised(window[k], raise[k]);
         return accept(first, last, window, kAlignRounds);
-    }
-
-    // Points to add to each section of a chain, cheapest first.
-    std::vector<std::vector<int>> raises(long first, long last) const {
-        const std::vector<int> none(last - first + 1, 0);
-        std::vector<int> all = none;
-        std::vector<std::vector<int>> result{none};
-        for (long k = first; k <= last; ++k) {
-            if (!ring_.at(k).curved()) continue;
-            all[k - first] = 1;
-            if (last - first >= kLongChain) continue;
-            result.push_back(none);
-            result.back()[k - first] = 1;
-        }
-        result.push_back(all);
-        for (int &a : all) a *= 2;
-        result.push_back(all);
-        return result;
     }
 
     Section raised(const Section &s, int by) const {

@@ -36,7 +36,9 @@ class Reduction {
             for (int side = 1; side <= limits_.widest; ++side)
                 for (long i = 0; i < ring_.size();) {
                     if (interruption_.ends([&] { return n_points(); })) return;
-                    const bool moved = demote(i, side) || merge(i, side) || squeeze(i, side);
+                    // With more neighbours few of the bolder moves succeed (measured).
+                    const bool moved =
+                        demote(i, side) || merge(i, side) || (side == 1 && squeeze(i));
                     changed |= moved;
                     if (!moved) ++i;
                 }
@@ -59,13 +61,13 @@ class Reduction {
     bool merge(long i, int side) {
         if (!ring_.has(i + 1) || ring_.size() <= 2 || ring_.at(i + 1).barred()) return false;
         const int both = ring_.at(i).cost() + ring_.at(i + 1).cost();
-        for (int cost = std::max(both - 3, 1); cost < both; ++cost)
+        for (int cost = std::max(both - (side == 1 ? 3 : 2), 1); cost < both; ++cost)
             if (attempt(i, 2, {cost}, side)) return true;
         return false;
     }
 
     // Three sections into two.
-    bool squeeze(long i, int side) {
+    bool squeeze(long i) {
         if (!ring_.has(i + 2) || ring_.size() <= 4 || ring_.at(i + 1).barred() ||
             ring_.at(i + 2).barred())
             return false;
@@ -74,7 +76,7 @@ class Reduction {
         std::set<int> firsts{a, total - c};
         if (b > 1) firsts.insert(a + b / 2);
         for (const int first : firsts)
-            if (total - first >= 1 && attempt(i, 3, {first, total - first}, side)) return true;
+            if (total - first >= 1 && attempt(i, 3, {first, total - first}, 1)) return true;
         return false;
     }
 
