@@ -248,7 +248,7 @@ NB_MODULE(_kernels, m) {
         [](In2 points, bool closed, InIndices joint, InIndices forced, InIndices gentle,
            std::int64_t stride, double resolution, std::int64_t every, double tolerance,
            int largest_degree, bool smooth, bool ends_fixed, double least_corner, int passes,
-           int widest,
+           bool thorough,
            nb::object ask,
            std::optional<In2> observed, double noise) {
             ss::Interruption asking = interruption(ask);
@@ -259,7 +259,7 @@ NB_MODULE(_kernels, m) {
             std::vector<std::int64_t> degrees, counts;
             std::vector<double> knots, coordinates;
             auto sections = outline.search(tolerance, every, largest_degree, smooth, ends_fixed,
-                                           least_corner, passes, widest, asking);
+                                           least_corner, passes, thorough, asking);
             if (observed)
                 sections = ss::fit_observed(vectors(*observed), closed, std::move(sections), noise);
             for (const ss::Section &s : sections) {
@@ -274,7 +274,7 @@ NB_MODULE(_kernels, m) {
         "forced"_a.noconvert(), "gentle"_a.noconvert(), "stride"_a, "resolution"_a, "every"_a,
         "tolerance"_a,
         "largest_degree"_a,
-        "smooth"_a, "ends_fixed"_a, "least_corner"_a, "passes"_a, "widest"_a, "ask"_a,
+        "smooth"_a, "ends_fixed"_a, "least_corner"_a, "passes"_a, "thorough"_a, "ask"_a,
         "observed"_a.none().noconvert() = nb::none(), "noise"_a = 0.0);
     // Knot removal: a search is a few calls, each a whole stage; see removal.hpp.
     nb::class_<ss::removal::RemovalSearch>(m, "RemovalSearch")

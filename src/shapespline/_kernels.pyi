@@ -134,7 +134,7 @@ def fit_sections(
     ends_fixed: bool,
     least_corner: float,
     passes: int,
-    widest: int,
+    thorough: bool,
     ask: _Ask,
     observed: FloatArray | None = None,  # (n, 2): the sections are fitted to these in the end
     noise: float = 0.0,

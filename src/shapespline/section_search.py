@@ -40,24 +40,27 @@ class Search(NamedTuple):
 
     ``stride`` is the distance of candidate nodes in points, but more of them stand where the
     polyline through them would leave the data by ``resolution`` tolerances. How far sections reach
-    is found from one in ``every`` of them; ``passes`` is how often all moves are tried, ``widest``
-    how many neighbours they take along.
+    is found from one in ``every`` of them; ``passes`` is how often moves are tried. A ``thorough``
+    search tries bold ones, too, takes more neighbours along, and begins again where smooth joints
+    took points.
     """
 
     stride: int
     resolution: float
     every: int
     passes: int
-    widest: int
+    thorough: bool
 
 
 # The reduction is a greedy search, and where it starts is worth some percent: the best of several
 # runs on different candidates is taken.
 SEARCHES: dict[Effort, tuple[Search, ...]] = {
-    "fast": (Search(12, 0.8, 5, 1, 1),),
-    "balanced": (Search(12, 0.4, 1, 6, 2),),
+    "fast": (Search(12, 0.8, 5, 1, thorough=False),),
+    "balanced": (Search(12, 0.4, 1, 6, thorough=True),),
     "smallest": tuple(
-        Search(stride, part, 1, 6, 2) for stride in (3, 6, 12) for part in (0.15, 0.25, 0.4)
+        Search(stride, part, 1, 6, thorough=True)
+        for stride in (3, 6, 12)
+        for part in (0.15, 0.25, 0.4)
     ),
 }
 
@@ -112,7 +115,7 @@ class SectionSearch(NamedTuple):
             outline.held.ends,
             RELEASE * LEAST_TURN,
             search.passes,
-            search.widest,
+            search.thorough,
             self.watch.ends,
             observed,
             noise,

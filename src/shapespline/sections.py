@@ -42,6 +42,8 @@ ROUGH_PART = 0.3
 # Beyond this part of the vertices of a polyline found in one pass, which are more than need be,
 # lines are looked at.
 CHORDS_PART = 0.7
+# A polyline whose joints turn less than corners for more than this part follows a curve.
+FACETS_PART = 0.5
 # A node that turns more is a corner of the result, radians.
 SHARP_TURN = np.radians(1.01)
 # Sections are at most cubic; higher degrees are made by elevation.
@@ -174,14 +176,14 @@ def fit_pieces(
     count = found.n_stored_points if found is not None and found.kept else np.inf
     # Where the caller knows the corners lines would make others.
     named = not isinstance(corners, str)
-    n_chords = np.inf if named else _n_chords(work)
+    n_chords, in_facets = (np.inf, False) if named else _chords_found(work)
     rough = min(ROUGH_PART * len(contour), n_chords)
-    if found is not None and count <= (rough if named else CHORDS_PART * n_chords):
+    if found is not None and count <= rough and (in_facets or count <= CHORDS_PART * n_chords):
         return found
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
     straight = work._replace(held=work.held._replace(tangents=(None, None)))
     lines = SectionSearch(straight, 1, False, False, Watch()).run(
-        AIMS[0] * work.tolerance, SEARCHES["fast"][0]._replace(stride=1)
+        AIMS[0] * work.tolerance, SEARCHES["fast"][0]._replace(stride=1, thorough=True)
     )
     fewer = _size(lines) + (not contour.closed) < count
     drawn = fewer and _drawn_with_lines(lines, contour.closed)
@@ -267,10 +269,17 @@ def _drawn_with_lines(lines: Sequence[Piece], closed: bool) -> bool:
     return min(turns, default=np.pi) >= LEAST_TURN
 
 
-def _n_chords(outline: SearchOutline) -> int:
-    """How many points a polyline through some of the data stores, a first guess."""
+def _chords_found(outline: SearchOutline) -> tuple[int, bool]:
+    """How many points a polyline through some of the data stores; whether it follows a curve.
+
+    A first guess: most joints of a polyline along a curve turn less than corners.
+    """
     contour = outline.frame.contour
-    return len(_kernels.thinned(contour.polyline, outline.tolerance, np.inf, None)) - contour.closed
+    chosen = _kernels.thinned(contour.polyline, outline.tolerance, np.inf, None)
+    x, y = np.diff(contour.polyline[chosen], axis=0).T
+    turns = np.arctan2(x[:-1] * y[1:] - y[:-1] * x[1:], x[:-1] * x[1:] + y[:-1] * y[1:])
+    gentle = np.count_nonzero(np.abs(turns) < LEAST_TURN)
+    return len(chosen) - contour.closed, bool(gentle > FACETS_PART * len(turns))
 
 
 def through_all(contour: Contour) -> tuple[Piece, ...]:

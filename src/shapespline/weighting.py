@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 BESIDE = (0, 1, 2)
 # Parts of it within which one curve is still followed closely for the sake of a few points.
 MODEST = 0.1
-# A window goes through so many points that are too far away; closer to all its points beyond.
+# A window may go through so many points that are too far away, or closer to all its points.
 FEW = 8
 # Parts of the tolerance within which everything is fitted; at last within the least limit.
 CLOSER = (0.7, 0.5, 0.25, 0.0)
@@ -92,7 +92,7 @@ def weighted(fit: Fit, limits: Limits, refit: Refit | None, whole: Whole) -> Fit
         return fit
     tried = []
     if refit is not None:
-        tried.append(verified_row(_closer(fit, limits, refit)))
+        tried += [verified_row(_closer(fit, limits, refit, few)) for few in (FEW, 0)]
         if len(missed) <= FEW:
             tried.append(whole(fit.tolerance, missed))
     # What is smooth everywhere may stay so for as few points, unless a few ask for very much.
@@ -135,8 +135,11 @@ def _closer_whole(fit: Fit, limits: Limits, whole: Whole) -> Fit:
     return again
 
 
-def _closer(fit: Fit, limits: Limits, refit: Refit) -> Row:
-    """The row of the fit with the pieces that miss a limit fitted again, and those beside them."""
+def _closer(fit: Fit, limits: Limits, refit: Refit, few: int) -> Row:
+    """The row of the fit with the pieces that miss a limit fitted again, and those beside them.
+
+    Up to ``few`` points of a window that are missed are gone through.
+    """
     row = Row.of(0, fit)
     for beside in BESIDE:
         missed, found = _missed(row, limits)
@@ -146,7 +149,7 @@ def _closer(fit: Fit, limits: Limits, refit: Refit) -> Row:
             row, _ = turned_apart(row, found)
             missed, found = _missed(row, limits)
         windows = [
-            _window(row, begin, end, missed, limits, beside)
+            _window(row, begin, end, missed, limits, few if beside < BESIDE[-1] else 0)
             for begin, end in windows_around(found, beside, len(row.parts))
         ]
         row = fitted_again(row, windows, refit)
@@ -154,13 +157,13 @@ def _closer(fit: Fit, limits: Limits, refit: Refit) -> Row:
 
 
 def _window(
-    row: Row, begin: int, end: int, missed: NDArray[np.bool_], limits: Limits, beside: int
+    row: Row, begin: int, end: int, missed: NDArray[np.bool_], limits: Limits, few: int
 ) -> Window:
     """Parts to fit again: through the points that are missed if they are few, or else closer."""
     first, last = row.parts[begin].begin, row.parts[end - 1].end
-    few = first + np.flatnonzero(missed[first:last])
-    if len(few) <= FEW and beside < BESIDE[-1]:
-        return Window(begin, end, limits.tolerance, tuple(few.tolist()))
+    far = first + np.flatnonzero(missed[first:last])
+    if len(far) <= few:
+        return Window(begin, end, limits.tolerance, tuple(far.tolist()))
     return Window(begin, end, float(_along(row, limits)[first:last].min()))
 
 

@@ -21,6 +21,7 @@ class EnvelopeMatrix {
         for (std::size_t i = 0; i < first_.size(); ++i)
             offset_[i + 1] = offset_[i] + (i - first_[i] + 1);
         values_.assign(offset_.back(), 0.0);
+        inverse_.resize(first_.size());
     }
 
     std::size_t size() const { return first_.size(); }
@@ -52,10 +53,11 @@ class EnvelopeMatrix {
                 if (k < j) sum -= row_i[k] * row_j[k];
                 sum += other;
                 if (j < i) {
-                    row_i[j] = sum / row_j[j];
+                    row_i[j] = sum * inverse_[j];
                 } else {
                     if (!(sum > 0.0)) return false;
                     row_i[i] = std::sqrt(sum);
+                    inverse_[i] = 1.0 / row_i[i];
                 }
             }
         }
@@ -67,11 +69,11 @@ class EnvelopeMatrix {
         for (std::size_t i = 0; i < size(); ++i) {
             const double *row_i = row(i);
             for (std::size_t k = first_[i]; k < i; ++k) x[i] -= row_i[k] * x[k];
-            x[i] /= row_i[i];
+            x[i] *= inverse_[i];
         }
         for (std::size_t i = size(); i-- > 0;) {
             const double *row_i = row(i);
-            x[i] /= row_i[i];
+            x[i] *= inverse_[i];
             for (std::size_t k = first_[i]; k < i; ++k) x[k] -= row_i[k] * x[i];
         }
     }
@@ -81,7 +83,7 @@ class EnvelopeMatrix {
     double *row(std::size_t i) { return values_.data() + offset_[i] - first_[i]; }
 
     std::vector<std::size_t> first_, offset_;
-    std::vector<double> values_;
+    std::vector<double> values_, inverse_;  // the factor's diagonal inverted: divisions are slow
 };
 
 }  // namespace shapespline

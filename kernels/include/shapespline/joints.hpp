@@ -34,10 +34,11 @@ class JointSmoother {
     }
 
   private:
-    static constexpr int kRounds = 20, kAlignRounds = 40, kStartRounds = 12, kMostRaise = 4;
+    static constexpr int kRounds = 20, kStartRounds = 12, kMostRaise = 4;
     // A joint that turns more than this, in radians, is not worth the attempt.
     static constexpr double kSteepest = 0.785;
     static constexpr double kTangent = 1.01 / 57.3;  // of a joint that was made tangent
+    static constexpr int kStrays = 3;
     static constexpr int kWidest = 2;  // sections on either side of one joint
 
     // A curve-curve joint that is no corner costs fewer points inside one spline: C1 saves one,
@@ -66,7 +67,7 @@ class JointSmoother {
             if (merged.distance > kWorthFreeing * tolerance_) continue;
             *at = merged.sections.front();
             window.erase(at + 1);
-            if (accept(i0, i1, window, kRounds)) return true;
+            if (accept(i0, i1, window)) return true;
         }
         return false;
     }
@@ -100,26 +101,31 @@ class JointSmoother {
         long last = i;
         while (last + 1 < ring_.size() && ring_.at(last + 1).tangent) ++last;
         if (last == i || align(i, last, std::vector<int>(last - i + 1, 0))) return last + 1;
-        if (!turned_ && turn_to_stubs()) return i;
         for (long k = i + 1; k <= last; ++k)
-            ring_.at(k).tangent = std::fabs(ring_.turn(k)) <= kTangent;
+            ring_.at(k).tangent =
+                !ring_.at(k).required && std::fabs(ring_.turn(k)) <= kTangent;
         for (const bool required : {true, false})
-            for (long k = i + 1; k <= last; ++k)
-                if (!ring_.at(k).tangent && ring_.at(k).required == required) smooth(k);
+            for (long k = i + 1; k <= last; ++k) {
+                if (ring_.at(k).tangent || ring_.at(k).required != required) continue;
+                smooth(k);
+                if (required && !ring_.at(k).tangent && !turned_ && turn_to_stubs()) return i;
+            }
         return last + 1;
     }
 
-    // Makes one joint tangent: by its neighbours, else with a point more in one of the curves next
-    // to it, in both, or two. Where the data do not turn lines get them too, and some more; else the
-    // joint is a corner after all.
+    // Makes one joint tangent: by its neighbours, else with a point more in one of the curves that
+    // meet there, in both, or two. Where the data do not turn lines get them too, and some more;
+    // else the joint is a corner after all.
     void smooth(long k) {
         const bool before = ring_.at(k - 1).curved(), after = ring_.at(k).curved();
-        const bool worth = ring_.at(k).required || gentle_[ring_.origin(ring_.at(k))] != 0;
+        const bool required = ring_.at(k).required;  // beside a stub, which stays a line
+        const bool worth = required || gentle_[ring_.origin(ring_.at(k))] != 0;
         std::vector<std::pair<int, int>> raises{{0, 0}};
         if (before) raises.emplace_back(1, 0);
         if (after) raises.emplace_back(0, 1);
         if (before && after) raises.insert(raises.end(), {{1, 1}, {2, 2}});
-        for (int by = 2; worth && by <= most_raise_; by += 2) raises.emplace_back(by, by);
+        for (int by = 2; worth && by <= (required ? kMostRaise : most_raise_); by += 2)
+            raises.emplace_back(required && !before ? 0 : by, required && !after ? 0 : by);
         ring_.at(k).tangent = true;
         for (const auto &raise : raises)
             for (int side = 1; side <= kWidest; ++side)
@@ -179,7 +185,7 @@ class JointSmoother {
             window[1].join_like({.tangent = true});
             const Section stub = ring_.at(at_end ? k : k - 1);
             window.insert(at_end ? window.end() : window.begin(), stub);
-            if (accept(k - 1, k, window, kAlignRounds)) return true;
+            if (accept(k - 1, k, window)) return true;
         }
         return false;
     }
@@ -198,7 +204,7 @@ class JointSmoother {
         std::vector<Section> window = ring_.window(first, last);
         for (std::size_t k = 0; k < window.size(); ++k)
             if (raise[k] > 0) window[k] = raised(window[k], raise[k]);
-        return accept(first, last, window, kAlignRounds);
+        return accept(first, last, window);
     }
 
     Section raised(const Section &s, int by) const {
@@ -209,10 +215,10 @@ class JointSmoother {
         return result;
     }
 
-    bool accept(long i0, long i1, const std::vector<Section> &window, int rounds) {
-        const MinimaxResult result = MinimaxFit(data_, window, ring_.begin_of(i0),
-                                                ring_.end_before(i1 + 1), {tolerance_, rounds})
-                                         .run();
+    bool accept(long i0, long i1, const std::vector<Section> &window) {
+        const MinimaxLimits limits{tolerance_, kRounds, kStrays};
+        const MinimaxResult result =
+            MinimaxFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits).run();
         if (result.kept) ring_.replace(i0, i1, result.sections);
         return result.kept;
     }

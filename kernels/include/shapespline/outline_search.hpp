@@ -39,7 +39,7 @@ struct OutlineSearch {
             const int cost = ring.cost();
             smoother.run(true);
             // Points that made joints smooth may be too many now that they are.
-            if (ring.cost() > cost) reducer.run();
+            if (reduction.thorough && ring.cost() > cost) reducer.run();
         }
         return ring.sections();
     }
@@ -198,12 +198,12 @@ class LaidOutOutline {
     }
 
     std::vector<Section> search(double tolerance, Index every, int largest_degree, bool smooth,
-                                bool ends_fixed, double least_corner, int passes, int widest,
+                                bool ends_fixed, double least_corner, int passes, bool thorough,
                                 Interruption &interruption) const {
         return OutlineSearch{data_,     closed_ ? n_ : 0, candidates_, nodes_,       gentle_,
                              tolerance, every,            largest_degree, smooth,    ends_fixed,
                              least_corner,
-                             {tolerance, largest_degree, smooth, passes, widest},
+                             {tolerance, largest_degree, smooth, passes, thorough},
                              interruption}
             .run();
     }

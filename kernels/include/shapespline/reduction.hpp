@@ -19,7 +19,7 @@ struct ReductionLimits {
     int largest_degree;
     bool smooth;  // joints that are no corners are tangent
     int passes = 6;
-    int widest = 2;  // neighbours on each side of a move
+    bool thorough = true;  // two neighbours on each side of a move, too, and bold moves with one
 };
 
 class Reduction {
@@ -33,12 +33,11 @@ class Reduction {
     void run() {
         for (int pass = 0; pass < limits_.passes; ++pass) {
             bool changed = false;
-            for (int side = 1; side <= limits_.widest; ++side)
+            for (int side = 1; side <= (limits_.thorough ? 2 : 1); ++side)
                 for (long i = 0; i < ring_.size();) {
                     if (interruption_.ends([&] { return n_points(); })) return;
-                    // With more neighbours few of the bolder moves succeed (measured).
                     const bool moved =
-                        demote(i, side) || merge(i, side) || (side == 1 && squeeze(i));
+                        demote(i, side) || merge(i, side) || (is_bold(side) && squeeze(i));
                     changed |= moved;
                     if (!moved) ++i;
                 }
@@ -51,6 +50,9 @@ class Reduction {
 
     long n_points() const { return ring_.cost() + (ring_.closed() ? 0 : 1); }
 
+    // Of bold moves few succeed with more neighbours (measured).
+    bool is_bold(int side) const { return limits_.thorough && side == 1; }
+
     // One section of one point less.
     bool demote(long i, int side) {
         const Section &s = ring_.at(i);
@@ -61,7 +63,8 @@ class Reduction {
     bool merge(long i, int side) {
         if (!ring_.has(i + 1) || ring_.size() <= 2 || ring_.at(i + 1).barred()) return false;
         const int both = ring_.at(i).cost() + ring_.at(i + 1).cost();
-        for (int cost = std::max(both - (side == 1 ? 3 : 2), 1); cost < both; ++cost)
+        const int most_saved = is_bold(side) ? 3 : limits_.thorough ? 2 : 1;
+        for (int cost = std::max(both - most_saved, 1); cost < both; ++cost)
             if (attempt(i, 2, {cost}, side)) return true;
         return false;
     }

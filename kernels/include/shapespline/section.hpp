@@ -71,30 +71,33 @@ struct SpanPolynomial {
 // Taylor coefficients [power][function] of the basis functions that live on one span.
 using BasisTaylor = std::array<std::array<double, kSectionTerms>, kSectionTerms>;
 
-// Those of span k about the origin, by the Cox-de Boor recursion on polynomials.
-inline BasisTaylor basis_taylor(const double *knots, int degree, std::size_t k, double origin) {
-    std::array<std::array<double, kSectionTerms + 1>, kSectionTerms> basis{}, next;
+// Those of span k about the origin, by the Cox-de Boor recursion on polynomials: each function of
+// one degree less, over the width of its support, is part of two neighbours.
+template <int Degree>
+BasisTaylor basis_taylor(const double *knots, std::size_t k, double origin) {
+    std::array<std::array<double, kSectionTerms>, kSectionTerms> basis{};  // [function][power]
     basis[0][0] = 1.0;
-    for (int d = 1; d <= degree; ++d) {
-        next = {};
-        for (int l = 0; l <= d; ++l) {
-            const double *u = knots + k - d + l;
-            const auto add = [&](int from, double constant, double slope) {
-                for (int q = 0; q < d; ++q) {
-                    next[l][q] += constant * basis[from][q];
-                    next[l][q + 1] += slope * basis[from][q];
-                }
-            };
-            if (const double width = u[d] - u[0]; l > 0 && width > 0.0)
-                add(l - 1, (origin - u[0]) / width, 1.0 / width);
-            if (const double width = u[d + 1] - u[1]; l < d && width > 0.0)
-                add(l, (u[d + 1] - origin) / width, -1.0 / width);
+    for (int d = 1; d <= Degree; ++d) {
+        std::array<double, kSectionTerms> falling{};
+        for (int l = 0; l < d; ++l) {
+            const double begin = knots[k + l + 1 - d] - origin, end = knots[k + l + 1] - origin;
+            const double part = 1.0 / (end - begin);
+            auto next = falling;
+            falling = {};
+            for (int q = 0; q < d; ++q) {
+                const double share = part * basis[l][q];
+                next[q] += end * share;
+                next[q + 1] -= share;
+                falling[q] -= begin * share;
+                falling[q + 1] += share;
+            }
+            basis[l] = next;
         }
-        basis = next;
+        basis[d] = falling;
     }
     BasisTaylor taylor{};
-    for (int l = 0; l <= degree; ++l)
-        for (int q = 0; q <= degree; ++q) taylor[q][l] = basis[l][q];
+    for (int l = 0; l <= Degree; ++l)
+        for (int q = 0; q <= Degree; ++q) taylor[q][l] = basis[l][q];
     return taylor;
 }
 
@@ -117,7 +120,9 @@ struct SectionView {
             if (degree == 2) return {{{1, 0, 0, 0}, {-2, 2, 0, 0}, {1, -2, 1, 0}, {}}};
             return {{{1, 0, 0, 0}, {-3, 3, 0, 0}, {3, -6, 3, 0}, {-1, 3, -3, 1}}};
         }
-        return basis_taylor(knots, degree, degree + s, span_begin(s));
+        if (degree == 1) return basis_taylor<1>(knots, 1 + s, span_begin(s));
+        if (degree == 2) return basis_taylor<2>(knots, 2 + s, span_begin(s));
+        return basis_taylor<3>(knots, 3 + s, span_begin(s));
     }
 };
 

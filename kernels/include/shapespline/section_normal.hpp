@@ -33,6 +33,7 @@ class SectionNormal {
         gradient_.assign(size_, 0.0);
         const auto run = [&]<int Degree>() {
             moments_.assign(section.n_spans(), {});
+            knots_.assign(section.knots, section.knots + section.n_points + Degree + 1);
             for (const Index at : active) {
                 const Index j = at - base;
                 add_datum<Degree>(moments_[feet.spans[j]], spans[feet.spans[j]], data[j],
@@ -125,19 +126,19 @@ class SectionNormal {
     template <int Degree>
     void add_knots(const SectionView &section, const BasisTaylor &taylor, std::size_t s) {
         columns_.clear();
-        knots_.assign(section.knots, section.knots + section.n_points + Degree + 1);
         for (std::size_t i = std::max<std::size_t>(Degree + 1, s + 1);
              i < std::min<std::size_t>(section.n_points, s + 2 * Degree + 1); ++i) {
             const double u = knots_[i];
             const double step = 1e-5 * std::min(knots_[i + 1] - u, u - knots_[i - 1]) + 1e-12;
+            const double part = 1.0 / step;
             knots_[i] = u + step;
             const BasisTaylor moved =
-                basis_taylor(knots_.data(), Degree, Degree + s, section.span_begin(s));
+                basis_taylor<Degree>(knots_.data(), Degree + s, section.span_begin(s));
             knots_[i] = u;
             Column column{2 * section.n_points + i - Degree - 1, {}, {}};
             for (int q = 0; q <= Degree; ++q)
                 for (int l = 0; l <= Degree; ++l) {
-                    const double slope = (moved[q][l] - taylor[q][l]) / step;
+                    const double slope = (moved[q][l] - taylor[q][l]) * part;
                     column.x[q] += slope * section.points[s + l].x;
                     column.y[q] += slope * section.points[s + l].y;
                 }
@@ -159,11 +160,15 @@ class SectionNormal {
             }
             gradient_[knot.unknown] += knot.x[q] * m.x[q] + knot.y[q] * m.y[q];
         }
-        for (int l = 0; l <= Degree; ++l)
+        for (int l = 0; l <= Degree; ++l) {
+            double sum_x = 0.0, sum_y = 0.0;
             for (int q = 0; q <= Degree; ++q) {
-                add(knot.unknown, 2 * (s + l), taylor[q][l] * hx[q]);
-                add(knot.unknown, 2 * (s + l) + 1, taylor[q][l] * hy[q]);
+                sum_x += taylor[q][l] * hx[q];
+                sum_y += taylor[q][l] * hy[q];
             }
+            add(knot.unknown, 2 * (s + l), sum_x);
+            add(knot.unknown, 2 * (s + l) + 1, sum_y);
+        }
         for (const Column &other : columns_) {
             double sum = 0.0;
             for (int q = 0; q <= Degree; ++q) sum += other.x[q] * hx[q] + other.y[q] * hy[q];
