@@ -235,12 +235,12 @@ NB_MODULE(_kernels, m) {
     // The structured fit.
     m.def(
         "corner_turns",
-        [](In2 points, In1 stations, std::int64_t first, double length, Out1 turns) {
+        [](In2 points, In1 stations, InIndices vertices, double length, Out1 turns) {
             nb::gil_scoped_release release;
-            ss::corner_turns({vectors(points), numbers(stations)}, first,
-                             static_cast<std::int64_t>(turns.shape(0)), length, turns.data());
+            ss::corner_turns({vectors(points), numbers(stations)}, indices(vertices), length,
+                             turns.data());
         },
-        "points"_a.noconvert(), "stations"_a.noconvert(), "first"_a, "length"_a,
+        "points"_a.noconvert(), "stations"_a.noconvert(), "vertices"_a.noconvert(), "length"_a,
         "turns"_a.noconvert());
 
     m.def(

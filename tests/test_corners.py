@@ -94,7 +94,7 @@ def test_corners_move_with_the_start():
 def test_tangent_jump_has_the_sign_of_the_turn():
     points = rectangle(20, 20).points
     square, mirrored = Contour(points, closed=True), Contour(points[::-1], closed=True)
-    left = tangent_jumps(square, 4.0, square.arc_length)[0]
-    right = tangent_jumps(mirrored, 4.0, mirrored.arc_length)[-1]
+    left = tangent_jumps(square, 4.0, square.arc_length, np.array([0]))[0]
+    right = tangent_jumps(mirrored, 4.0, mirrored.arc_length, np.array([len(mirrored) - 1]))[0]
     assert left == pytest.approx(np.pi / 2)
     assert right == pytest.approx(-np.pi / 2)

@@ -107,9 +107,9 @@ def damped_step(
 def corner_turns(
     points: FloatArray,  # (k, 2)
     stations: FloatArray,  # (k,), increasing
-    first: int,
+    vertices: IntArray,  # (n,), below k
     length: float,
-    turns: FloatArray,  # out (n,), n <= k - first
+    turns: FloatArray,  # out (n,)
 ) -> None: ...
 
 # Asked now and then with the number of points, 0 before there is a curve; true ends the search.

@@ -17,8 +17,9 @@ from shapespline.noise import noise_level
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray, IntArray
 
-# A corner turns at least this much, radians.
-LEAST_TURN = np.radians(25.0)
+# A corner turns at least this much, radians; what turns less than the second is gentle, and not
+# looked at again.
+LEAST_TURN, GENTLE_TURN = np.radians(25.0), np.radians(8.0)
 # The shortest length on either side that is looked at: in median steps, in tolerances.
 STEPS = 5.0
 TOLERANCES = 8.0
@@ -43,8 +44,9 @@ APART = 0.6
 class Corners(NamedTuple):
     """Where a contour turns abruptly.
 
-    ``indices`` (k,) are increasing; ``turns`` (n,) is the turn of every point, in radians, the
-    smaller of those at two lengths (0 where they disagree in sign); ``length`` the shorter one.
+    ``indices`` (k,) are increasing; ``turns`` (n,) is the turn of every point over ``length``, in
+    radians; where that is not gentle the smallest of those over several lengths (0 where they
+    disagree in sign).
     """
 
     indices: IntArray
@@ -84,12 +86,16 @@ def _found(contour: Contour, tolerance: float, sigma: float) -> Corners:
     longest = LONGEST_PART * total
     shortest = max(STEPS * spacing, noise_length)
     length = min(max(shortest, TOLERANCES * tolerance), longest)
-    fine = tangent_jumps(contour, length, stations)
-    coarse = tangent_jumps(contour, min(2.0 * length, longest), stations)
-    turns = np.where(fine * coarse > 0, np.minimum(np.abs(fine), np.abs(coarse)), 0.0)
+    fine = tangent_jumps(contour, length, stations, np.arange(len(contour)))
+    others = [min(2.0 * length, longest)]
     if (close := max(shortest, CLOSE_TOLERANCES * tolerance)) < CLOSER * length:
-        nearby = tangent_jumps(contour, close, stations)
-        turns = np.where(nearby * fine > 0, np.minimum(turns, np.abs(nearby)), 0.0)
+        others.append(close)
+    turns = np.abs(fine)
+    abrupt = np.flatnonzero(turns >= GENTLE_TURN)
+    for other in others:
+        again = tangent_jumps(contour, other, stations, abrupt)
+        agree = again * fine[abrupt] > 0
+        turns[abrupt] = np.where(agree, np.minimum(turns[abrupt], np.abs(again)), 0.0)
     return Corners(_separated_maxima(contour, turns, stations, APART * length), turns, length)
 
 
@@ -139,16 +145,18 @@ def _averaged_steps(contour: Contour, half: int) -> FloatArray:
     return np.hypot(*np.diff(means, axis=0).T)
 
 
-def tangent_jumps(contour: Contour, length: float, stations: FloatArray) -> FloatArray:
-    """Signed angle between the one-sided tangents at every point, radians, shape (n,)."""
-    points, first = contour.points, 0
+def tangent_jumps(
+    contour: Contour, length: float, stations: FloatArray, at: IntArray
+) -> FloatArray:
+    """Signed angle between the one-sided tangents at some points, radians, shape of ``at``."""
+    points = contour.points
     if contour.closed:
-        first = len(contour)
+        at = at + len(contour)
         lap, total = stations[:-1], stations[-1]
         stations = np.concatenate([lap - total, lap, lap + total])
         points = np.concatenate([points, points, points])
-    turns = np.empty(len(contour))
-    _kernels.corner_turns(points, np.ascontiguousarray(stations), first, length, turns)
+    turns = np.empty(len(at))
+    _kernels.corner_turns(points, np.ascontiguousarray(stations), at, length, turns)
     return turns
 
 

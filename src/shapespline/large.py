@@ -17,7 +17,7 @@ import numpy as np
 
 from shapespline.arrays import is_number
 from shapespline.contour import Contour
-from shapespline.corners import find_corners
+from shapespline.corners import GENTLE_TURN, find_corners
 from shapespline.distance import CentredCurve, Distances, reverse_distance, rounding
 from shapespline.drawing import Fit
 from shapespline.errors import DegenerateContourError, InvalidInputError
@@ -26,7 +26,7 @@ from shapespline.held import Held
 from shapespline.joining import backwards
 from shapespline.knots import check_degree
 from shapespline.large_fit import FootParameters, LargeFit
-from shapespline.outline import GENTLE_TURN, SearchOutline
+from shapespline.outline import SearchOutline
 from shapespline.passes import Measured, Passes
 from shapespline.point_stream import PointStream, TurnedRows
 from shapespline.progress import Watch

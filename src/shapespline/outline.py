@@ -8,7 +8,7 @@ import numpy as np
 
 from shapespline import _kernels
 from shapespline.contour import Contour
-from shapespline.corners import find_corners
+from shapespline.corners import GENTLE_TURN, find_corners
 from shapespline.errors import InvalidInputError
 from shapespline.frame import WorkingFrame
 from shapespline.held import Held
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 CornerChoice = Literal["auto", "free"]
 
-# Where the outline turns less, radians, a corner of the result would be seen to be wrong.
-GENTLE_TURN = np.radians(8.0)
 # So many points that spread across a line by no more than this part of the tolerance are a straight
 # run of the data, which one smooth spline would bend.
 FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1

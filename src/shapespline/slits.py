@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.trails import shares_of
-
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -24,7 +22,7 @@ if TYPE_CHECKING:
 # Two places of an outline lie across a slit if the way along it is so many times their distance.
 AROUND = 4.0
 # Pairs of a point and a segment looked at at a time.
-CHUNK = 200_000
+CHUNK = 20_000
 
 
 class Sides(NamedTuple):
@@ -70,16 +68,21 @@ class Sides(NamedTuple):
         return np.concatenate([self._across(part, own, least) for part in parts])
 
     def _across(self, trail: Trail, own: int, least: float) -> FloatArray:
-        points, along = trail.points[:, None], trail.along[:, None]
-        shares = shares_of(points, self.begins, self.vectors)
-        vectors = points - (self.begins + shares[..., None] * self.vectors)
-        distances = np.hypot(*np.moveaxis(vectors, -1, 0))
-        ways = np.abs(along - (self.along + shares * np.hypot(*self.vectors.T)))
-        ways = np.fmod(ways, self.lengths)
-        ways = np.where(self.owners == own, np.minimum(ways, self.lengths - ways), np.inf)
+        (px, py), (bx, by), (ux, uy) = trail.points.T, self.begins.T, self.vectors.T
+        x, y = px[:, None] - bx, py[:, None] - by
+        shares = np.clip((x * ux + y * uy) / (ux * ux + uy * uy), 0.0, 1.0)
+        x -= shares * ux
+        y -= shares * uy
+        distances = np.sqrt(x * x + y * y)
+        mine = self.owners == own
+        along = np.fmod(trail.along, self.lengths[mine][0]) if mine.any() else trail.along
+        ways = np.abs(along[:, None] - (self.along + shares * np.hypot(ux, uy)))
+        # Of two ways round a closed outline the shorter.
+        ways = np.where(mine, np.minimum(ways, self.lengths - ways), np.inf)
         distances[ways <= np.maximum(AROUND * distances, least)] = np.inf
-        nearest = (np.arange(len(points)), distances.argmin(axis=1))
-        return np.where(np.isinf(distances[nearest])[:, None], np.inf, vectors[nearest])
+        nearest = (np.arange(len(x)), distances.argmin(axis=1))
+        vectors = np.column_stack([x[nearest], y[nearest]])
+        return np.where(np.isinf(distances[nearest])[:, None], np.inf, vectors)
 
 
 def moved(

@@ -111,8 +111,9 @@ def pieces_of(fit: Fit) -> tuple[Piece, ...]:
 
 def shares_of(points: FloatArray, begins: FloatArray, vectors: FloatArray) -> FloatArray:
     """Where on segments the points nearest to some points are, in parts of the segments."""
-    shares = ((points - begins) * vectors).sum(axis=-1) / (vectors**2).sum(axis=-1)
-    return np.clip(shares, 0.0, 1.0)
+    x, y = np.moveaxis(points - begins, -1, 0)
+    u, v = np.moveaxis(vectors, -1, 0)
+    return np.clip((x * u + y * v) / (u * u + v * v), 0.0, 1.0)
 
 
 def located(

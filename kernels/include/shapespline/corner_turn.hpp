@@ -44,19 +44,19 @@ inline Vec2 one_sided_tangent(const StationedOutline &outline, std::int64_t vert
     return (1.0 / determinant) * (c10 * m[0] + c11 * m[1] + c12 * m[2]);
 }
 
-// Signed angle from the left to the right tangent at vertices first .. first + count - 1, radians;
-// 0 where the outline has less than 0.6 lengths on a side.
-inline void corner_turns(const StationedOutline &outline, std::int64_t first, std::int64_t count,
+// Signed angle from the left to the right tangent at some vertices, radians; 0 where the outline
+// has less than 0.6 lengths on a side.
+inline void corner_turns(const StationedOutline &outline, std::span<const std::int64_t> vertices,
                          double length, double *turns) {
     const double begin = outline.stations.front() + 0.6 * length;
     const double end = outline.stations.back() - 0.6 * length;
-    for (std::int64_t i = 0; i < count; ++i) {
-        turns[i] = 0.0;
-        const double s = outline.stations[first + i];
+    for (const std::int64_t vertex : vertices) {
+        double &turn = *turns++ = 0.0;
+        const double s = outline.stations[vertex];
         if (s < begin || s > end) continue;
-        const Vec2 u = one_sided_tangent(outline, first + i, -1, length);
-        const Vec2 v = one_sided_tangent(outline, first + i, 1, length);
-        if (norm_sq(u) > 0.0 && norm_sq(v) > 0.0) turns[i] = std::atan2(cross(u, v), dot(u, v));
+        const Vec2 u = one_sided_tangent(outline, vertex, -1, length);
+        const Vec2 v = one_sided_tangent(outline, vertex, 1, length);
+        if (norm_sq(u) > 0.0 && norm_sq(v) > 0.0) turn = std::atan2(cross(u, v), dot(u, v));
     }
 }
 
