@@ -36,6 +36,7 @@ struct OutlineSearch {
         reducer.run();
         for (int round = 0; round < 2 && release_corners(ring); ++round) reducer.run();
         if (smooth) {
+            drop_specks(ring);
             const int cost = ring.cost();
             smoother.run(true);
             // Points that made joints smooth may be too many now that they are.
@@ -45,6 +46,7 @@ struct OutlineSearch {
     }
 
   private:
+    static constexpr double kSpeck = 1e-3;  // of the tolerance
     static constexpr int kPathTrials = 200, kPathRounds = 30, kMostStarts = 16;
 
     std::vector<Section> sections_of_best_path() const {
@@ -150,6 +152,26 @@ struct OutlineSearch {
             if (!candidates.closed && i + 1 == sections.size()) break;
             --sections[i].last;
             sections[i].parameters.pop_back();
+        }
+    }
+
+    // Between two tangent joints a section of next to no length hides a turn: the next one takes
+    // its data and its node.
+    void drop_specks(SectionRing &ring) const {
+        for (long i = 0; i < ring.size(); ++i) {
+            if (!ring.has(i + 1) || ring.size() <= 2 || ring.at(i + 1).barred()) continue;
+            double length = 0.0;
+            const Section &speck = ring.at(i);
+            for (std::size_t k = 1; k < speck.points.size(); ++k)
+                length += norm(speck.points[k] - speck.points[k - 1]);
+            if (length > kSpeck * tolerance) continue;
+            Section next = ring.window(i, i + 1)[1];
+            next.points.front() = speck.points.front();
+            next.first = speck.first;
+            next.parameters.insert(next.parameters.begin(), speck.count(), 0.0);
+            next.join_like(speck);
+            next.tangent = false;
+            ring.replace(i, i + 1, {next});
         }
     }
 

@@ -37,7 +37,7 @@ class Reduction {
                 for (long i = 0; i < ring_.size();) {
                     if (interruption_.ends([&] { return n_points(); })) return;
                     const bool moved =
-                        demote(i, side) || merge(i, side) || (is_bold(side) && squeeze(i));
+                        demote(i, side) || merge(i, side) || (is_bold(side) && squeeze(i, side));
                     changed |= moved;
                     if (!moved) ++i;
                 }
@@ -50,8 +50,8 @@ class Reduction {
 
     long n_points() const { return ring_.cost() + (ring_.closed() ? 0 : 1); }
 
-    // Of bold moves few succeed with more neighbours (measured).
-    bool is_bold(int side) const { return limits_.thorough && side == 1; }
+    // Of bold moves few succeed with more neighbours (measured), but where joints are free.
+    bool is_bold(int side) const { return limits_.thorough && (side == 1 || !limits_.smooth); }
 
     // One section of one point less.
     bool demote(long i, int side) {
@@ -70,7 +70,7 @@ class Reduction {
     }
 
     // Three sections into two.
-    bool squeeze(long i) {
+    bool squeeze(long i, int side) {
         if (!ring_.has(i + 2) || ring_.size() <= 4 || ring_.at(i + 1).barred() ||
             ring_.at(i + 2).barred())
             return false;
@@ -79,7 +79,7 @@ class Reduction {
         std::set<int> firsts{a, total - c};
         if (b > 1) firsts.insert(a + b / 2);
         for (const int first : firsts)
-            if (total - first >= 1 && attempt(i, 3, {first, total - first}, 1)) return true;
+            if (total - first >= 1 && attempt(i, 3, {first, total - first}, side)) return true;
         return false;
     }
 
