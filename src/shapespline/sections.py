@@ -183,7 +183,7 @@ def fit_pieces(
     # Data rougher than the tolerance: what curves cannot follow lines do, at last one a point.
     straight = work._replace(held=work.held._replace(tangents=(None, None)))
     lines = SectionSearch(straight, 1, False, False, Watch()).run(
-        AIMS[0] * work.tolerance, SEARCHES["fast"][0]._replace(stride=1, thorough=True)
+        AIMS[0] * work.tolerance, SEARCHES["fast"][0]._replace(stride=1)
     )
     fewer = _size(lines) + (not contour.closed) < count
     drawn = fewer and _drawn_with_lines(lines, contour.closed)

@@ -50,8 +50,12 @@ class Reduction {
 
     long n_points() const { return ring_.cost() + (ring_.closed() ? 0 : 1); }
 
-    // Of bold moves few succeed with more neighbours (measured), but where joints are free.
-    bool is_bold(int side) const { return limits_.thorough && (side == 1 || !limits_.smooth); }
+    // Of bold moves few succeed with more neighbours (measured), but where joints are free. Lines
+    // have hardly any others.
+    bool is_bold(int side) const {
+        if (limits_.largest_degree == 1) return true;
+        return limits_.thorough && (side == 1 || !limits_.smooth);
+    }
 
     // One section of one point less.
     bool demote(long i, int side) {
