@@ -43,7 +43,7 @@ ROUGH_PART = 0.3
 # lines are looked at.
 CHORDS_PART = 0.7
 # A polyline whose joints turn less than corners for more than this part follows a curve.
-FACETS_PART = 0.5
+GENTLE_PART = 0.5
 # A node that turns more is a corner of the result, radians.
 SHARP_TURN = np.radians(1.01)
 # Sections are at most cubic; higher degrees are made by elevation.
@@ -279,7 +279,7 @@ def _chords_found(outline: SearchOutline) -> tuple[int, bool]:
     x, y = np.diff(contour.polyline[chosen], axis=0).T
     turns = np.arctan2(x[:-1] * y[1:] - y[:-1] * x[1:], x[:-1] * x[1:] + y[:-1] * y[1:])
     gentle = np.count_nonzero(np.abs(turns) < LEAST_TURN)
-    return len(chosen) - contour.closed, bool(gentle > FACETS_PART * len(turns))
+    return len(chosen) - contour.closed, bool(gentle > GENTLE_PART * len(turns))
 
 
 def through_all(contour: Contour) -> tuple[Piece, ...]:

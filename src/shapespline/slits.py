@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.trails import shares_of
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -70,7 +72,7 @@ class Sides(NamedTuple):
     def _across(self, trail: Trail, own: int, least: float) -> FloatArray:
         (px, py), (bx, by), (ux, uy) = trail.points.T, self.begins.T, self.vectors.T
         x, y = px[:, None] - bx, py[:, None] - by
-        shares = np.clip((x * ux + y * uy) / (ux * ux + uy * uy), 0.0, 1.0)
+        shares = shares_of(x, y, ux, uy)
         x -= shares * ux
         y -= shares * uy
         distances = np.sqrt(x * x + y * y)

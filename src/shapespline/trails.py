@@ -109,10 +109,11 @@ def pieces_of(fit: Fit) -> tuple[Piece, ...]:
     return tuple(Piece("bezier", fit.degree, knots, points.copy()) for points in beziers)
 
 
-def shares_of(points: FloatArray, begins: FloatArray, vectors: FloatArray) -> FloatArray:
-    """Where on segments the points nearest to some points are, in parts of the segments."""
-    x, y = np.moveaxis(points - begins, -1, 0)
-    u, v = np.moveaxis(vectors, -1, 0)
+def shares_of(x: FloatArray, y: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
+    """Where on segments (u, v) the points nearest to others are, in parts of the segments.
+
+    The others are (x, y) from where the segments begin.
+    """
     return np.clip((x * u + y * v) / (u * u + v * v), 0.0, 1.0)
 
 
@@ -215,5 +216,5 @@ def _behind(node: FloatArray, polyline: FloatArray) -> int:
 def _distances_sq(node: FloatArray, polyline: FloatArray) -> FloatArray:
     """Squared distances of a node from the segments of a polyline."""
     begins, vectors = polyline[:-1], np.diff(polyline, axis=0)
-    feet = begins + shares_of(node, begins, vectors)[:, None] * vectors
+    feet = begins + shares_of(*(node - begins).T, *vectors.T)[:, None] * vectors
     return np.asarray(((feet - node) ** 2).sum(axis=1))

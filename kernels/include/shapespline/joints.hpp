@@ -38,7 +38,7 @@ class JointSmoother {
     // A joint that turns more than this, in radians, is not worth the attempt.
     static constexpr double kSteepest = 0.785;
     static constexpr double kTangent = 1.01 / 57.3;  // of a joint that was made tangent
-    static constexpr int kStrays = 3;
+    static constexpr int kStrays = 3;  // rounds with stray curves
     static constexpr int kWidest = 2;  // sections on either side of one joint
 
     // A curve-curve joint that is no corner costs fewer points inside one spline: C1 saves one,
@@ -108,7 +108,9 @@ class JointSmoother {
             for (long k = i + 1; k <= last; ++k) {
                 if (ring_.at(k).tangent || ring_.at(k).required != required) continue;
                 smooth(k);
-                if (required && !ring_.at(k).tangent && !turned_ && turn_to_stubs()) return i;
+                if (!required || ring_.at(k).tangent || turned_ || !turn_to_stubs()) continue;
+                for (long j = i + 1; j < ring_.size(); ++j) mark(j);
+                return i;
             }
         return last + 1;
     }
