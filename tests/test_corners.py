@@ -66,6 +66,21 @@ def test_a_corner_between_two_arcs_is_found():
     assert find_corners(lens).indices.tolist() == [0, 60]
 
 
+@pytest.mark.parametrize("n", [40, 80, 150])
+@pytest.mark.parametrize("aspect", [3, 5])
+def test_the_tip_of_an_ellipse_is_a_bend_even_of_few_points(n, aspect):
+    tips = Contour(on_circle(n, 10.0) * [1.0, 1.0 / aspect], closed=True)
+    assert len(find_corners(tips, 0.02).indices) == 0
+
+
+def test_a_corner_between_two_points_stays_one():
+    cut = polygon([(0, 0), (40, 0), (40, 30), (0, 30)], 40)
+    middles = 0.5 * (cut.points + np.roll(cut.points, -1, axis=0))
+    found = find_corners(Contour(middles, closed=True), 0.02).indices
+    assert len(found) == 4
+    assert (np.minimum(found % 40, 39 - found % 40) == 0).all()
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_noise_makes_no_corners_and_hides_none(seed):
     rng = np.random.default_rng(seed)

@@ -15,6 +15,8 @@ from shapespline.contour import Contour
 from shapespline.noise import noise_level
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from shapespline.typing import FloatArray, IntArray
 
 # A corner turns at least this much, radians; what turns less than the second is gentle, and not
@@ -37,6 +39,9 @@ HALF_WINDOWS = (1, 2, 4, 8, 16, 32)
 QUIET_STEP = 0.3
 # Of more points every so many-th is looked at first.
 MOST_POINTS = 10_000
+# Around a bend that the points resolve the curvature changes by no more than this part of its peak
+# from one to the next; at a corner it springs up, and where a line runs into an arc.
+GRADUAL_PART = 0.45
 # Corners keep this part of the length apart.
 APART = 0.6
 
@@ -46,7 +51,7 @@ class Corners(NamedTuple):
 
     ``indices`` (k,) are increasing; ``turns`` (n,) is the turn of every point over ``length``, in
     radians; where that is not gentle the smallest of those over several lengths (0 where they
-    disagree in sign).
+    disagree in sign, and around a bend).
     """
 
     indices: IntArray
@@ -96,7 +101,15 @@ def _found(contour: Contour, tolerance: float, sigma: float) -> Corners:
         again = tangent_jumps(contour, other, stations, abrupt)
         agree = again * fine[abrupt] > 0
         turns[abrupt] = np.where(agree, np.minimum(turns[abrupt], np.abs(again)), 0.0)
-    return Corners(_separated_maxima(contour, turns, stations, APART * length), turns, length)
+    lap = total if contour.closed else np.inf
+    along = stations[: len(contour)]
+    indices = _separated_maxima(turns, along, lap, APART * length)
+    if close == shortest:  # no look from nearer
+        are_bends = _are_bends(contour, indices)
+        for bend in indices[are_bends]:
+            turns[_gaps(along, along[bend], lap) <= length] = 0.0
+        indices = indices[~are_bends]
+    return Corners(indices, turns, length)
 
 
 def _found_coarsely(contour: Contour, tolerance: float, sigma: float) -> Corners:
@@ -160,17 +173,42 @@ def tangent_jumps(
     return turns
 
 
-def _separated_maxima(
-    contour: Contour, turns: FloatArray, stations: FloatArray, apart: float
-) -> IntArray:
+def _are_bends(contour: Contour, corners: IntArray) -> NDArray[np.bool_]:
+    """Whether the curvature rises and falls so gradually around corners that these are bends."""
+    steps = np.diff(contour.polyline, axis=0)
+    if contour.closed:
+        steps = np.concatenate([steps[-1:], steps])
+    (x, y), lengths = steps.T, np.hypot(*steps.T)
+    turns = np.arctan2(x[:-1] * y[1:] - y[:-1] * x[1:], x[:-1] * x[1:] + y[:-1] * y[1:])
+    curvature = 2.0 * turns / (lengths[:-1] + lengths[1:])
+    if not contour.closed:
+        curvature = np.pad(curvature, 1)
+    half = int(STEPS)
+    around = corners[:, None] + np.arange(-half, half + 1)
+    near = curvature.take(around, mode="wrap" if contour.closed else "clip")
+    jumps = np.abs(np.diff(near, axis=1)).max(axis=1)
+    return jumps <= GRADUAL_PART * np.abs(near[:, half - 1 : half + 2]).max(axis=1)
+
+
+def _separated_maxima(turns: FloatArray, along: FloatArray, lap: float, apart: float) -> IntArray:
     """Points that turn enough and most within ``apart`` along the outline, the sharpest first."""
     enough = np.flatnonzero(turns >= LEAST_TURN)
-    along, turns = stations[enough], turns[enough]
+    along, turns = along[enough], turns[enough]
+    # Most turn less than the one before or behind.
+    close, rise = np.diff(along) <= apart, np.diff(turns)
+    less = np.zeros(len(enough), dtype=bool)
+    less[:-1] |= close & (rise > 0)
+    less[1:] |= close & (rise < 0)
+    peaks = np.flatnonzero(~less)
     chosen: list[int] = []
-    for i in np.argsort(-turns, kind="stable").tolist():
-        gaps = np.abs(along - along[i])
-        if contour.closed:
-            gaps = np.minimum(gaps, stations[-1] - gaps)
+    for i in peaks[np.argsort(-turns[peaks], kind="stable")].tolist():
+        gaps = _gaps(along, along[i], lap)
         if (gaps[chosen] > apart).all() and turns[i] >= turns[gaps <= apart].max():
             chosen.append(i)
     return np.sort(enough[chosen])
+
+
+def _gaps(along: FloatArray, place: float, lap: float) -> FloatArray:
+    """Distances from a place along the outline, the shorter way round a closed one."""
+    gaps = np.abs(along - place)
+    return np.minimum(gaps, lap - gaps)

@@ -48,7 +48,7 @@ MOST_TRIALS = 20_000
 # Stages as (half of p, iterations, gaps free, largest distance in tolerances to go on with), after
 # the number of free control points on each side.
 _RANK = (3, [(1, 1, False, inf)])
-_REMOVE_QUICKLY = (4, [(1, 3, False, 6.0), (3, 8, True, 2.0), (6, 25, True, inf)])
+_REMOVE_QUICKLY = (4, [(1, 3, False, 6.0), (3, 8, True, 2.0), (6, 15, True, inf)])
 _REMOVE = (4, [(1, 6, False, 6.0), (3, 8, True, 2.5), (6, 25, True, inf)])
 _INSIST = (7, [(1, 4, False, inf), (3, 12, True, 2.6), (6, 25, True, 1.3), (10, 30, True, inf)])
 

@@ -52,14 +52,23 @@ class DeviationSearch {
         }
     }
 
-    void refine(const Bezier<Degree> &piece, int depth) {
-        look(piece, 0.5);
+    double enough() const { return std::max(result_.lower * (1.0 + relative_gap_), floor_); }
+
+    // By the segment found last.
+    double bound_of(const Bezier<Degree> &piece) const {
         double bound_sq = 0.0;
         for (const Vec2 p : piece.points)
             bound_sq = std::max(bound_sq, polyline_.distance_sq(p, hint_));
-        const double bound = std::sqrt(bound_sq);
-        const double enough = std::max(result_.lower * (1.0 + relative_gap_), floor_);
-        if (bound <= enough || depth == kMaxDepth) {
+        return std::sqrt(bound_sq);
+    }
+
+    void refine(const Bezier<Degree> &piece, int depth) {
+        double bound = bound_of(piece);
+        if (bound > enough()) {
+            look(piece, 0.5);
+            bound = bound_of(piece);
+        }
+        if (bound <= enough() || depth == kMaxDepth) {
             result_.upper = std::max(result_.upper, bound);
             return;
         }

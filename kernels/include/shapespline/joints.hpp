@@ -108,11 +108,22 @@ class JointSmoother {
             for (long k = i + 1; k <= last; ++k) {
                 if (ring_.at(k).tangent || ring_.at(k).required != required) continue;
                 smooth(k);
+                if (merges_at(k)) {
+                    --k, --last;
+                    continue;
+                }
                 if (!required || ring_.at(k).tangent || turned_ || !turn_to_stubs()) continue;
                 for (long j = i + 1; j < ring_.size(); ++j) mark(j);
                 return i;
             }
         return last + 1;
+    }
+
+    // Where the data do not turn, what no more points make smooth is one curve, the last time.
+    bool merges_at(long k) {
+        const Section &s = ring_.at(k);
+        return most_raise_ > 0 && !s.tangent && !s.required && !s.barred() &&
+               ring_.size() > 2 && gentle_[ring_.origin(s)] != 0 && merge(k - 1);
     }
 
     // Makes one joint tangent: by its neighbours, else with a point more in one of the curves that

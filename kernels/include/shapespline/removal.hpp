@@ -50,15 +50,10 @@ class KnotRemoval {
         std::vector<Vec2> polyline = search_.points;
         if (closed) polyline.push_back(polyline.front());
         n_data_crossings_ = count_crossings(std::span<const Vec2>(polyline));
-        if (settings.start_from_polyline || !start_by_insertion(interruption))
+        if (settings.start_from_polyline || !start_by_insertion(interruption)) {
             state_ = polyline_spline<Degree>(search_, kPolylinePart * settings.tolerance);
-        const StateCurves<Degree> all(state_);
-        Box everywhere;
-        for (const Vec2 p : state_.points) everywhere.include(p);
-        n_crossings_ = crossings(all, everywhere);
-        median_ = median_speed(all);
-        slowest_ = slowest_speed(all, settings.rule.speed_ratio * median_) / median_;
-        gap_ratio_ = gap_ratio(all);
+            measure_rule();
+        }
     }
 
     const SplineState<Degree> &state() const { return state_; }
@@ -169,11 +164,33 @@ class KnotRemoval {
     static constexpr double kFlatness = 0.01;  // of the tolerance, for crossings
 
     // Where the first knots fall decides whether sharp corners are met; another number of them
-    // often cures what more insertions cannot.
+    // often cures what more insertions cannot. Of two starts that are proven the one that keeps the
+    // product rule is taken, or else the first.
     bool start_by_insertion(Interruption &interruption) {
-        for (const int count : {24, 37, 56})
-            if (start_by_insertion(std::max(count, 3 * Degree + 4), interruption)) return true;
-        return false;
+        SplineState<Degree> first;
+        for (const int count : {24, 37, 56}) {
+            if (!start_by_insertion(std::max(count, 3 * Degree + 4), interruption)) continue;
+            measure_rule();
+            if (!settings_.keep_rule || start_keeps_rule()) return true;
+            if (!first.points.empty()) break;
+            first = state_;
+        }
+        if (first.points.empty()) return false;
+        state_ = std::move(first);
+        measure_rule();
+        return true;
+    }
+    bool start_keeps_rule() const {
+        return slowest_ >= settings_.rule.speed_ratio && n_crossings_ <= n_data_crossings_;
+    }
+    void measure_rule() {
+        const StateCurves<Degree> all(state_);
+        Box everywhere;
+        for (const Vec2 p : state_.points) everywhere.include(p);
+        n_crossings_ = crossings(all, everywhere);
+        median_ = median_speed(all);
+        slowest_ = slowest_speed(all, settings_.rule.speed_ratio * median_) / median_;
+        gap_ratio_ = gap_ratio(all);
     }
     bool start_by_insertion(int count, Interruption &interruption) {
         const int n = search_.size();

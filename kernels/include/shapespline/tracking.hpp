@@ -5,6 +5,7 @@
 // jumps to another branch, no branch of the curve hides behind another one of the polyline.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -202,16 +203,18 @@ class Tracking {
                              Bracket &bracket, double most_sq, int depth) {
         const double middle = 0.5 * (piece.begin + piece.end);
         Bracket ahead = bracket;  // the left half is still to come
-        const auto near =
-            nearest_around(piece.at(0.5).point, window.segments, ahead.segment(span, middle),
-                           kProofPatience, 0.0);
+        const int start = ahead.segment(span, middle);
+        const Vec2 p = piece.at(0.5).point;
+        auto near = nearest_around(p, window.segments, start, kPatience, 0.0);
+        if (near.distance_sq > most_sq)
+            near = nearest_around(p, window.segments, start, kProofPatience, 0.0);
         if (near.distance_sq > most_sq) return false;
         const Segment &segment = window.segments[near.segment];
-        double bound_sq = 0.0;
-        for (const Vec2 p : piece.points)
-            bound_sq = std::max(bound_sq, segment_distance_sq(p, segment.begin,
-                                                              segment.begin + segment.along));
-        if (bound_sq <= most_sq) {
+        const bool all_near = std::ranges::all_of(piece.points, [&](Vec2 q) {
+            const Vec2 end = segment.begin + segment.along;
+            return segment_distance_sq(q, segment.begin, end) <= most_sq;
+        });
+        if (all_near) {
             bracket = ahead;
             return true;
         }
