@@ -282,7 +282,7 @@ NB_MODULE(_kernels, m) {
             "__init__",
             [](ss::removal::RemovalSearch *self, In2 data, bool closed, int degree,
                double tolerance,
-               bool keep_rule, bool start_from_polyline, double gap_ratio, double speed_ratio,
+               bool keep_rule, int start, double gap_ratio, double speed_ratio,
                double least_gap, double largest_gap, double enough, double accept,
                int samples_per_span,
                double sample_weight, double hope, nb::object ask) {
@@ -293,12 +293,12 @@ NB_MODULE(_kernels, m) {
                                         hope};
                 new (self) ss::removal::RemovalSearch(
                     vectors(data), closed, degree,
-                    {tolerance, keep_rule, start_from_polyline, {gap_ratio, speed_ratio}, fit,
+                    {tolerance, keep_rule, start, {gap_ratio, speed_ratio}, fit,
                      accept},
                     asking);
             },
             "data"_a.noconvert(), "closed"_a, "degree"_a, "tolerance"_a, "keep_rule"_a,
-            "start_from_polyline"_a, "gap_ratio"_a, "speed_ratio"_a, "least_gap"_a,
+            "start"_a, "gap_ratio"_a, "speed_ratio"_a, "least_gap"_a,
             "largest_gap"_a, "enough"_a,
             "accept"_a, "samples_per_span"_a, "sample_weight"_a, "hope"_a, "ask"_a)
         .def(
@@ -321,6 +321,7 @@ NB_MODULE(_kernels, m) {
             "effort"_a, "spreads"_a, "ask"_a)
         .def("curve", &ss::removal::RemovalSearch::curve)
         .def("n_points", &ss::removal::RemovalSearch::n_points)
+        .def("from_polyline", &ss::removal::RemovalSearch::from_polyline)
         .def("counts", &ss::removal::RemovalSearch::counts);
     m.def(
         "count_crossings",

@@ -154,7 +154,7 @@ class RemovalSearch:
         degree: int,
         tolerance: float,
         keep_rule: bool,
-        start_from_polyline: bool,
+        start: int,
         gap_ratio: float,
         speed_ratio: float,
         least_gap: float,
@@ -172,6 +172,7 @@ class RemovalSearch:
     def remove_stubborn(self, effort: _Effort, spreads: list[int], ask: _Ask) -> int: ...
     def curve(self) -> tuple[list[float], list[float]]: ...  # gaps, control points x, y in turn
     def n_points(self) -> int: ...
+    def from_polyline(self) -> bool: ...
     def counts(self) -> dict[str, int]: ...
 
 def count_crossings(vertices: FloatArray) -> int: ...  # (k, 2), an open polyline

@@ -39,9 +39,9 @@ FREE_GAPS = (1e-3, 150.0)
 ENOUGH, ACCEPT = 0.97, 0.998
 SAMPLES_PER_SPAN, SAMPLE_WEIGHT = 8, 0.5
 # When the exported curve misses the tolerance, the search is run again with this part of it; when
-# it misses the product rule, once more from the data polyline, which keeps it.
+# it misses the product rule, with more knots, at last from the data polyline, which keeps it.
 TIGHTER = 0.95
-ATTEMPTS = 4
+ATTEMPTS = 5
 # Removals tried in the first stage; only outlines far rougher than the tolerance need so many.
 MOST_TRIALS = 20_000
 
@@ -192,7 +192,7 @@ def fit_spline(
     frame = WorkingFrame.of(contour) if frame is None else frame
     frame = frame.thinned(tolerance * frame.scale, np.empty(0, dtype=np.int64))
     results: list[SplineResult] = []
-    part, from_polyline = 1.0, False
+    part, start = 1.0, 0
     for _ in range(ATTEMPTS):
         search = _search(
             frame,
@@ -200,7 +200,7 @@ def fit_spline(
             degree,
             LEVELS[effort],
             product_rule,
-            from_polyline,
+            start,
             watch,
         )
         curve = _exported(search, frame, contour, degree)
@@ -216,9 +216,10 @@ def fit_spline(
             break
         if not result.kept:
             part *= TIGHTER
-        elif from_polyline:
+        elif search.from_polyline():
             break
-        from_polyline = from_polyline or result.kept
+        else:
+            start += 1
     return min(results, key=lambda result: _badness(result, product_rule))
 
 
@@ -234,7 +235,7 @@ def _search(
     degree: int,
     level: _Level,
     product_rule: bool,
-    from_polyline: bool,
+    start: int,
     watch: Watch,
 ) -> _kernels.RemovalSearch:
     """The stages of one search, as many as the watch allows."""
@@ -251,7 +252,7 @@ def _search(
         degree,
         scaled,
         product_rule,
-        from_polyline,
+        start,
         GAP_RATIO,
         SPEED_RATIO,
         least_gap,

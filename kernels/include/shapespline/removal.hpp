@@ -26,7 +26,7 @@ struct Effort {
 struct RemovalSettings {
     double tolerance;
     bool keep_rule;
-    bool start_from_polyline;
+    int start;  // which knots it begins with: 0 few, 1 more, 2 the data polyline
     ProductRule rule;
     FitLimits fit;
     double accept;  // part of the tolerance that an accepted curve keeps
@@ -50,13 +50,15 @@ class KnotRemoval {
         std::vector<Vec2> polyline = search_.points;
         if (closed) polyline.push_back(polyline.front());
         n_data_crossings_ = count_crossings(std::span<const Vec2>(polyline));
-        if (settings.start_from_polyline || !start_by_insertion(interruption)) {
+        if (!start_by_insertion(interruption)) {
+            from_polyline_ = true;
             state_ = polyline_spline<Degree>(search_, kPolylinePart * settings.tolerance);
             measure_rule();
         }
     }
 
     const SplineState<Degree> &state() const { return state_; }
+    bool from_polyline() const { return from_polyline_; }
     const RemovalCounts &counts() {
         counts_.iterations = fit_.iterations();
         return counts_;
@@ -168,7 +170,7 @@ class KnotRemoval {
     // product rule is taken, or else the first.
     bool start_by_insertion(Interruption &interruption) {
         SplineState<Degree> first;
-        for (const int count : {24, 37, 56}) {
+        for (const int count : first_counts()) {
             if (!start_by_insertion(std::max(count, 3 * Degree + 4), interruption)) continue;
             measure_rule();
             if (!settings_.keep_rule || start_keeps_rule()) return true;
@@ -179,6 +181,11 @@ class KnotRemoval {
         state_ = std::move(first);
         measure_rule();
         return true;
+    }
+    std::vector<int> first_counts() const {
+        if (settings_.start == 0) return {24, 37, 56};
+        if (settings_.start == 1) return {56, 83};
+        return {};
     }
     bool start_keeps_rule() const {
         return slowest_ >= settings_.rule.speed_ratio && n_crossings_ <= n_data_crossings_;
@@ -361,6 +368,7 @@ class KnotRemoval {
     ArcPolyline data_, search_;
     Proof<Degree> proof_;
     SplineState<Degree> state_, candidate_;
+    bool from_polyline_ = false;
     int n_data_crossings_ = 0, n_crossings_ = 0;
     double median_ = 0.0, slowest_ = 0.0, gap_ratio_ = 0.0;  // slowest in medians
     Window<Degree> window_;

@@ -37,6 +37,7 @@ class RemovalSearch {
     }
     CurveArrays curve() const { return search_->curve(); }
     int n_points() const { return search_->n_points(); }
+    bool from_polyline() const { return search_->from_polyline(); }
     std::map<std::string, long> counts() { return search_->counts(); }
 
   private:
@@ -48,6 +49,7 @@ class RemovalSearch {
                                     Interruption &interruption) = 0;
         virtual CurveArrays curve() const = 0;
         virtual int n_points() const = 0;
+        virtual bool from_polyline() const = 0;
         virtual std::map<std::string, long> counts() = 0;
     };
 
@@ -67,6 +69,7 @@ class RemovalSearch {
             return removal.remove_stubborn(effort, spreads, interruption);
         }
         int n_points() const override { return removal.state().n_points(); }
+        bool from_polyline() const override { return removal.from_polyline(); }
         CurveArrays curve() const override {
             std::vector<double> points;
             for (const Vec2 p : removal.state().points) points.insert(points.end(), {p.x, p.y});

@@ -193,7 +193,7 @@ class WindowSystem {
         std::array<double, 2 * kGapReach + 1> around;
         std::copy_n(curve.gaps.begin() + (k - kGapReach), around.size(), around.begin());
         std::array<Polynomial, 2 * kGapReach + 1> change, weighted;
-        std::array<int, 2 * kGapReach + 1> unknown;
+        std::array<int, 2 * kGapReach + 1> unknown{};
         int count = 0;
         SpanBasis<Degree> moved;
         for (int g = 0; g <= 2 * kGapReach; ++g) {
