@@ -36,10 +36,10 @@ if TYPE_CHECKING:
 SAMPLES, MOST_AXES, NEARLY = 512, 3, 0.9999
 # The error of an axis is known to this part of itself.
 ERROR_GAP = 0.1
-# So many times the samples place the axis: their error at corners is that of a quadrature.
+# At last so many times the samples place the axis: their error at corners is that of a quadrature.
 REFINED = 16
-# Each parabola looks at a tenth of the step of the one before.
-PARABOLAS = 5
+# Parabolas find it: over what part of a step, with how many times the samples.
+PARABOLAS = ((0.5, 2), (0.05, 2), (0.05, REFINED), (0.005, REFINED))
 # The outline and its mirror image may differ by this part of the tolerance; the fit has the rest.
 LARGEST_PART = 0.2
 # A corner that is so near to the axis, in tolerances, lies on it.
@@ -119,22 +119,21 @@ def _refined(
     contour: Contour, centre: FloatArray, at: Sampler, start: float, step: float
 ) -> Mirror:
     """The axis near an arc length at which its direction agrees best."""
-    finer = step / REFINED
-    t = (np.arange(REFINED * SAMPLES // 2, dtype=np.float64) + 0.5) * finer
 
-    def product(s: float) -> NDArray[np.complex128]:
-        return at(s + t) * at(s - t)
+    def correlation(s: float, times: int) -> np.complex128:
+        t = (np.arange(times * SAMPLES // 2, dtype=np.float64) + 0.5) * (step / times)
+        return np.dot(at(s + t), at(s - t))
 
-    # Parabolas through three values: the correlation is smooth about its maximum.
-    s, width = start, 0.5 * step
-    for _ in range(PARABOLAS):
-        low, middle, high = (abs(product(s + k * width).sum()) for k in (-1, 0, 1))
+    # Through three values: the correlation is smooth about its maximum.
+    s = start
+    for part, times in PARABOLAS:
+        width = part * step
+        low, middle, high = (abs(correlation(s + k * width, times)) for k in (-1, 0, 1))
         bend = low - 2.0 * middle + high
         if bend < 0:
             s += float(np.clip(0.5 * (low - high) / bend, -1.0, 1.0)) * width
-        width *= 0.1
     s %= contour.length
-    angle = 0.5 * float(np.angle(product(s).sum()))
+    angle = 0.5 * float(np.angle(correlation(s, REFINED)))
     direction = np.array([np.cos(angle), np.sin(angle)])
     direction *= 1.0 if direction[1] > 0 or (direction[1] == 0 and direction[0] > 0) else -1.0
     mirror = Mirror(centre, direction, (s, (s + 0.5 * contour.length) % contour.length), np.inf)
