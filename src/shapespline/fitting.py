@@ -37,6 +37,7 @@ from shapespline.tolerance import (
     Effort,
     Ends,
     Form,
+    Wanted,
     checked_corners,
     checked_held,
     fit_within,
@@ -226,18 +227,10 @@ def fit_curve(
                     f"{name} does not act with n_control_points: leave one of them out"
                 )
     if tolerance is not None:
-        return fit_promised(
-            contour,
-            tolerance_length(tolerance, contour),
-            degree,
-            corners,
-            form,
-            checked_held(contour, ends, end_tangents, through),
-            symmetric,
-            effort,
-            weights,
-            Watch(callback, time_limit),
-        )
+        length = tolerance_length(tolerance, contour)
+        held = checked_held(contour, ends, end_tangents, through)
+        wanted = Wanted(degree, corners, form, effort, held, symmetric)
+        return fit_promised(contour, length, wanted, weights, Watch(callback, time_limit))
     if end_tangents is not None or through is not None or symmetric:
         raise InvalidInputError(
             "end_tangents, through and symmetric act within a tolerance: give one"
@@ -350,8 +343,8 @@ def _estimated(
             if frame.reversed:
                 spline, parameters = reversed_curve(spline), 1.0 - parameters
             return replace(fit, contour=contour, spline=spline, parameters=parameters)
-    held = checked_held(contour, ends, None, None)
-    fit = fit_within(contour, shown.band, degree, corners, form, held, False, effort, watch)
+    wanted = Wanted(degree, corners, form, effort, checked_held(contour, ends, None, None))
+    fit = fit_within(contour, shown.band, wanted, watch)
     kept = verified_fit(
         contour, fit.spline, tolerance=None, method=fit.method, sections=fit.sections
     )

@@ -22,7 +22,6 @@ from shapespline.distance import CentredCurve, Distances, reverse_distance, roun
 from shapespline.drawing import Fit
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.frame import LONGEST_CHORD, WorkingFrame, canonical_reading, reversed_curve
-from shapespline.held import Held
 from shapespline.joining import backwards
 from shapespline.knots import check_degree
 from shapespline.large_fit import FootParameters, LargeFit
@@ -31,7 +30,7 @@ from shapespline.passes import Measured, Passes
 from shapespline.point_stream import PointStream, TurnedRows
 from shapespline.progress import Watch
 from shapespline.stand_in import StandIn
-from shapespline.tolerance import fit_within, tolerance_length
+from shapespline.tolerance import Wanted, fit_within, tolerance_length
 from shapespline.verification import status_of
 
 if TYPE_CHECKING:
@@ -39,7 +38,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from shapespline.tolerance import Effort, Form
-    from shapespline.typing import ArrayLike, IntArray
+    from shapespline.typing import IntArray
 
 
 def fit_large(
@@ -127,7 +126,8 @@ def fit_large(
     length = tolerance_length(tolerance, box)
     standing = StandIn.of(passes, seen, closed, length, LONGEST_CHORD * box.box_diagonal)
     sample = Contour.silently(seen.sample, closed)
-    fit = _fitted(standing, sample, stream.n_points, length, degree, corners, form, effort, watch)
+    wanted = Wanted(degree, corners, form, effort)
+    fit = _fitted(standing, sample, stream.n_points, length, wanted, watch)
     curve = CentredCurve.of(fit.spline, fit.contour)
     found = _distances(fit, passes.measure(curve), standing, stream.n_points)
     named = {name: getattr(fit, name) for name in Fit.__dataclass_fields__}
@@ -138,20 +138,14 @@ def fit_large(
 def fit_all_in_passes(
     contour: Contour,
     tolerance: float,
-    degree: int,
-    corners: Literal["auto", "free"] | ArrayLike | None,
-    form: Form,
-    effort: Effort,
+    wanted: Wanted,
     watch: Watch,
 ) -> Fit | None:
     """The same for a contour in memory, whose order is the canonical one, with all parameters.
 
     None where nothing smaller can stand for the points, or corners are named among them.
     """
-    chosen: Literal["auto", "free"] | None = None
-    if isinstance(corners, str):
-        chosen = "free" if corners == "free" else "auto"
-    elif corners is not None:
+    if not isinstance(wanted.corners, str | None):
         return None
     start, step = canonical_reading(contour.points, closed=contour.closed)
     stream = PointStream(TurnedRows(contour.points, start, step))
@@ -164,7 +158,7 @@ def fit_all_in_passes(
         return None
     sample = Contour.silently(seen.sample, contour.closed, accuracy=contour.accuracy)
     n = len(contour)
-    fit = _fitted(standing, sample, n, tolerance, degree, chosen, form, effort, watch)
+    fit = _fitted(standing, sample, n, tolerance, wanted, watch)
     curve = CentredCurve.of(fit.spline, fit.contour)
     parameters = np.empty(n)
     measured = passes.measure(curve, TurnedRows(parameters, start, step))
@@ -188,10 +182,7 @@ def _fitted(
     sample: Contour,
     n_points: int,
     tolerance: float,
-    degree: int,
-    corners: Literal["auto", "free"] | None,
-    form: Form,
-    effort: Effort,
+    wanted: Wanted,
     watch: Watch,
 ) -> Fit:
     """The fit to the vertices that stand for all points, within what is left of the tolerance."""
@@ -199,10 +190,8 @@ def _fitted(
     # Repeated points are gone.
     indices = standing.indices[np.unique(thinned.source, return_index=True)[1]]
     aim = tolerance - standing.off
-    outline = _outline(thinned, indices, sample, aim, corners, n_points)
-    return fit_within(
-        thinned, aim, degree, corners, form, Held(), False, effort, watch, outline, sample
-    )
+    outline = _outline(thinned, indices, sample, aim, wanted.corners is not None, n_points)
+    return fit_within(thinned, aim, wanted, watch, outline, sample)
 
 
 def _distances(fit: Fit, measured: Measured, standing: StandIn, n_points: int) -> Distances:
@@ -231,15 +220,15 @@ def _outline(
     indices: IntArray,
     sample: Contour,
     aim: float,
-    corners: Literal["auto", "free"] | None,
+    cornered: bool,
     n_points: int,
 ) -> SearchOutline:
-    """What the search knows: corners found in the sample are vertices near by."""
+    """What the search knows: corners found in the sample, if any may be, are vertices near by."""
     frame = WorkingFrame.of(thinned)
     seen = frame.taken_over(sample)
     n = len(thinned)
     empty = np.empty(0, dtype=np.int64)
-    if corners is None:
+    if not cornered:
         gentle = np.ones(n, dtype=np.int64)
         return SearchOutline(frame, aim * frame.scale, empty, gentle, dense=seen)
     found = find_corners(sample, aim)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -34,6 +34,17 @@ FACETS_PART = 0.25
 Form = Literal["pieces", "spline"]
 Ends = Literal["free", "fixed"]
 Effort = Literal["fast", "balanced", "smallest"]
+
+
+class Wanted(NamedTuple):
+    """What a curve within a tolerance is to be, as `fit_curve` takes it."""
+
+    degree: int
+    corners: Literal["auto", "free"] | ArrayLike | None
+    form: Form
+    effort: Effort
+    held: Held = Held()
+    symmetric: bool = False
 
 
 def tolerance_length(tolerance: float | str, contour: Contour) -> float:
@@ -65,12 +76,7 @@ def tolerance_length(tolerance: float | str, contour: Contour) -> float:
 def fit_within(
     contour: Contour,
     tolerance: float,
-    degree: int,
-    corners: Literal["auto", "free"] | ArrayLike | None,
-    form: Form,
-    held: Held,
-    symmetric: bool,
-    effort: Effort,
+    wanted: Wanted,
     watch: Watch,
     outline: SearchOutline | None = None,
     dense: Contour | None = None,
@@ -80,6 +86,7 @@ def fit_within(
     ``outline`` is the search's view of the contour where it is known, and ``dense`` holds points
     as they came where the contour holds thinned ones.
     """
+    degree, corners, form, effort, held, symmetric = wanted
     corners = checked_corners(corners, len(contour))
     if form == "spline":
         if not (corners is None or isinstance(corners, str)):
