@@ -39,7 +39,7 @@ ERROR_GAP = 0.1
 # At last so many times the samples place the axis: their error at corners is that of a quadrature.
 REFINED = 16
 # Parabolas find it: over what part of a step, with how many times the samples.
-PARABOLAS = ((0.5, 2), (0.05, 2), (0.05, REFINED), (0.005, REFINED))
+PARABOLAS = ((0.5, 2), (0.05, 2), (0.05, REFINED))
 # The outline and its mirror image may differ by this part of the tolerance; the fit has the rest.
 LARGEST_PART = 0.2
 # A corner that is so near to the axis, in tolerances, lies on it.
