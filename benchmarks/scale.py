@@ -216,8 +216,8 @@ def small_outlines() -> None:
         kinds = ("glyphs", "icons")
         contours = [o.contour for o in large_corpus() if o.category in kinds and o.contour.closed]
     print(f"\n## Many small outlines: {len(contours)} glyphs and icons, tolerance 0.5 %\n")
-    print("| points each | effort | outlines a second, one core | two processes | ratio |")
-    print("|---|---|---|---|---|")
+    print("| points each | effort | median, ms | a second, one core | with two processes | ratio |")
+    print("|---|---|---|---|---|---|")
     for count in (None, 200):
         given = [c if count is None else c.resampled(min(count, len(c))) for c in contours] * (
             1 if count is None else 4
@@ -225,6 +225,9 @@ def small_outlines() -> None:
         for effort in ("balanced", "fast"):
             options = {"tolerance": "0.5%", "effort": effort}
             ss.fit_many(given[:5], **options)
+            each = 1e3 * statistics.median(
+                median_of(lambda c=c, o=options: ss.fit_curve(c, **o), 1) for c in given
+            )
             one = len(given) / median_of(lambda g=given, o=options: ss.fit_many(g, **o), 3)
             with ProcessPoolExecutor(2) as pool:
                 ss.fit_many(given, executor=pool, **options)
@@ -232,7 +235,9 @@ def small_outlines() -> None:
                     lambda g=given, o=options, p=pool: ss.fit_many(g, executor=p, **o), 3
                 )
             mean = np.mean([len(c) for c in given])
-            print(f"| {mean:.0f} | {effort} | {one:.0f} | {two:.0f} | {two / one:.2f} |")
+            print(
+                f"| {mean:.0f} | {effort} | {each:.1f} | {one:.0f} | {two:.0f} | {two / one:.2f} |"
+            )
 
 
 def memory(most: int) -> None:
