@@ -29,6 +29,7 @@ import shapespline as ss
 from benchmarks.outside_metric import two_sided
 from benchmarks.peers import polyline_points, splprep_points
 from benchmarks.worst_fits import draw_worst
+from shapespline.joining import turn_between
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -39,6 +40,8 @@ LARGE = ROOT.parent / "shared" / "data"
 TOLERANCES = (0.5, 0.1, 0.02)  # per cent of the box diagonal
 LONGEST = 20_000
 PINNED = ROOT / "tests" / "pinned_points.csv"
+# Degrees that a joint turns which is neither smooth nor a corner.
+LITTLE = (1.01, 30.0)
 # What the certified bound may miss of the sampled distance: rounding alone.
 SLACK = 1 + 1e-9
 
@@ -66,6 +69,8 @@ class Row(NamedTuple):
     splprep: float
     splprep_seconds: float
     polyline: float
+    joints: int  # beside a curve
+    turning: int  # of those, turn a little: no corner, nor smooth
 
 
 def own_corpus() -> Iterator[Outline]:
@@ -122,7 +127,19 @@ def measure(outline: Outline, percent: float, *, peers: bool, **options: object)
         splprep.n_points if splprep else float("nan"),
         splprep.seconds if splprep else float("nan"),
         polyline.n_points if polyline else float("nan"),
+        *joints(fit),
     )
+
+
+def joints(fit: ss.Fit) -> tuple[int, int]:
+    """Joints beside a curve, and those that turn a little; one spline has none."""
+    pieces = fit.sections
+    turns = [
+        abs(float(np.degrees(turn_between(pieces[k - 1], pieces[k]))))
+        for k in range(0 if fit.closed else 1, len(pieces))
+        if max(pieces[k - 1].degree, pieces[k].degree) > 1
+    ]
+    return len(turns), sum(LITTLE[0] < turn < LITTLE[1] for turn in turns)
 
 
 def report(rows: list[Row]) -> None:
@@ -137,6 +154,8 @@ def report(rows: list[Row]) -> None:
         _line(category, [row for row in rows if row.category == category])
     _line("all", rows)
     print("\nstatuses:", dict(Counter(row.status for row in rows)))
+    n_joints, n_turning = sum(row.joints for row in rows), sum(row.turning for row in rows)
+    print(f"joints beside a curve: {n_joints}, {n_turning} turn by 1 to 30 degrees")
     print("\nWorst ten against the better peer:")
     for row in worst(rows):
         print(
