@@ -13,6 +13,14 @@ def opened(contour):
     return Contour.silently(contour.points[: 2 * len(contour) // 3], closed=False)
 
 
+def test_fixed_ends_of_many_points_are_the_data():
+    t = np.linspace(0, 3, 60_000)  # fitted in passes
+    bounces = np.column_stack([10 * t, 3 * np.abs(np.sin(3 * t))])
+    fit = fit_curve(bounces, closed=False, tolerance=0.05, ends="fixed")
+    assert fit.kept
+    assert_array_equal(fit.curve([0.0, 1.0]), bounces[[0, -1]])
+
+
 @pytest.mark.parametrize("effort", ["fast", "balanced"])
 @pytest.mark.parametrize(
     ("form", "corners"), [("pieces", "auto"), ("pieces", "free"), ("spline", "auto")]

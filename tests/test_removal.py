@@ -9,11 +9,12 @@ import pytest
 from scipy.spatial import cKDTree
 from tests.shapes import flower, moved, on_circle, rectangle, wave
 
+from shapespline import removal
 from shapespline.contour import Contour
 from shapespline.drawing import Status
 from shapespline.errors import InvalidInputError
 from shapespline.progress import Watch
-from shapespline.removal import GAP_RATIO, SPEED_RATIO, fit_spline
+from shapespline.removal import GAP_RATIO, SPEED_RATIO, RuleReport, fit_spline
 
 # Control points with the product rule at 0.1 and 0.5 % of the box diagonal: no more than these.
 MOST_POINTS = [
@@ -26,6 +27,21 @@ MOST_POINTS = [
     ("loop500_open", 0.001, 13),
     ("loop500_open", 0.005, 11),
 ]
+
+
+def test_what_misses_the_rule_begins_elsewhere_at_last_with_the_polyline(monkeypatch):
+    starts = []
+
+    def noted(*arguments):
+        starts.append((arguments[5], (search := begin(*arguments)).from_polyline()))
+        return search
+
+    begin = removal._search
+    broken = RuleReport(2 * GAP_RATIO, 1.0, 0, 0)
+    monkeypatch.setattr(removal, "_search", noted)
+    monkeypatch.setattr(removal, "rule_report", lambda *_: broken)
+    assert fit_spline(flower(), 0.05).kept
+    assert starts == [(0, False), (1, False), (2, True)]
 
 
 def dense(curve, per_span=400):

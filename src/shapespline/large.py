@@ -191,6 +191,7 @@ def _fitted(
     indices = standing.indices[np.unique(thinned.source, return_index=True)[1]]
     aim = tolerance - standing.off
     outline = _outline(thinned, indices, sample, aim, wanted.corners is not None, n_points)
+    outline = outline._replace(held=wanted.held)  # ends alone
     return fit_within(thinned, aim, wanted, watch, outline, sample)
 
 
