@@ -43,7 +43,7 @@ figures: $(READY)
 	$(BIN)/python -m benchmarks.howto_figures
 
 clean:
-	rm -rf $(VENV) build demo-output .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks
+	rm -rf $(VENV) build demo-output bench-output .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks
 
 $(READY): pyproject.toml CMakeLists.txt src/shapespline/_version.py $(KERNEL)
 	@PYTHON="$(PYTHON)" sh scripts/check_tools.sh

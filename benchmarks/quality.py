@@ -210,8 +210,8 @@ def worst(rows: list[Row], count: int = 10) -> list[Row]:
     return sorted(rows, key=lambda row: -row.n_points / min(row.splprep, row.polyline))[:count]
 
 
-def main() -> None:
-    """Read the arguments, measure, print."""
+def main(arguments: list[str] | None = None) -> None:
+    """Read the arguments, those of the command line if none are given; measure, print."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--all", action="store_true", help="the large corpus")
     parser.add_argument("--every", type=int, help="each so many-th outline of the large corpus")
@@ -222,7 +222,7 @@ def main() -> None:
     parser.add_argument("--form", default="pieces")
     parser.add_argument("--corners", default="auto")
     parser.add_argument("--effort", default="balanced")
-    chosen = parser.parse_args()
+    chosen = parser.parse_args(arguments)
     if chosen.pin:
         pin(run(list(own_corpus()), peers=False, n_jobs=chosen.jobs))
         return
