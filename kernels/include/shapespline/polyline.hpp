@@ -32,6 +32,8 @@ class Polyline {
               box.include(vertices[i + 1]);
           }) {}
 
+    Vec2 vertex(std::size_t i) const { return vertices_[i]; }
+
     double distance_sq(Vec2 p, std::size_t segment) const {
         return segment_distance_sq(p, vertices_[segment], vertices_[segment + 1]);
     }
