@@ -285,7 +285,8 @@ NB_MODULE(_kernels, m) {
                bool keep_rule, int start, double gap_ratio, double speed_ratio,
                double least_gap, double largest_gap, double enough, double accept,
                int samples_per_span,
-               double sample_weight, double hope, nb::object ask) {
+               double sample_weight, double hope, double worth_trying,
+               double worth_insisting, nb::object ask) {
                 ss::Interruption asking = interruption(ask);
                 nb::gil_scoped_release release;
                 const ss::removal::FitLimits fit{tolerance,     enough,    samples_per_span,
@@ -294,13 +295,14 @@ NB_MODULE(_kernels, m) {
                 new (self) ss::removal::RemovalSearch(
                     vectors(data), closed, degree,
                     {tolerance, keep_rule, start, {gap_ratio, speed_ratio}, fit,
-                     accept},
+                     accept, worth_trying, worth_insisting},
                     asking);
             },
             "data"_a.noconvert(), "closed"_a, "degree"_a, "tolerance"_a, "keep_rule"_a,
             "start"_a, "gap_ratio"_a, "speed_ratio"_a, "least_gap"_a,
             "largest_gap"_a, "enough"_a,
-            "accept"_a, "samples_per_span"_a, "sample_weight"_a, "hope"_a, "ask"_a)
+            "accept"_a, "samples_per_span"_a, "sample_weight"_a, "hope"_a,
+            "worth_trying"_a, "worth_insisting"_a, "ask"_a)
         .def(
             "remove_cheapest",
             [](Removal &self, const Removal::EffortTuple &rank, const Removal::EffortTuple &effort,

@@ -44,6 +44,16 @@ def test_what_misses_the_rule_begins_elsewhere_at_last_with_the_polyline(monkeyp
     assert starts == [(0, False), (1, False), (2, True)]
 
 
+@pytest.mark.parametrize("effort", ["fast", "balanced"])
+def test_without_hope_less_is_tried_for_as_few_points(monkeypatch, effort):
+    fit = fit_spline(flower(), 0.01, effort=effort)
+    level = removal.LEVELS[effort]._replace(worth_trying=np.inf, worth_insisting=np.inf)
+    monkeypatch.setitem(removal.LEVELS, effort, level)
+    patient = fit_spline(flower(), 0.01, effort=effort)
+    assert fit.counts["trials"] < patient.counts["trials"]
+    assert fit.n_control_points == patient.n_control_points
+
+
 def dense(curve, per_span=400):
     """Points of a curve by SciPy's evaluation, which shares nothing with the search."""
     breaks = curve.breakpoints

@@ -164,6 +164,8 @@ class RemovalSearch:
         samples_per_span: int,
         sample_weight: float,
         hope: float,
+        worth_trying: float,
+        worth_insisting: float,
         ask: _Ask,
     ) -> None: ...
     def remove_cheapest(

@@ -54,17 +54,23 @@ _INSIST = (7, [(1, 4, False, inf), (3, 12, True, 2.6), (6, 25, True, 1.3), (10, 
 
 
 class _Level(NamedTuple):
-    """What an effort spends: fits, passes over what is left, how holes are spread, patience."""
+    """What an effort spends: fits, passes over what is left, how holes are spread, patience.
+
+    After twelve failures in a row no removal is tried whose rank is beyond ``worth_trying``
+    tolerances, and none insisted on that failed by more than ``worth_insisting``.
+    """
 
     remove: tuple[int, list[tuple[int, int, bool, float]]]
     passes: int
     spreads: list[int]
     hope: float
+    worth_trying: float = inf
+    worth_insisting: float = inf
 
 
 LEVELS = {
-    "fast": _Level(_REMOVE_QUICKLY, 0, [], 4.0),
-    "balanced": _Level(_REMOVE, 1, [0, 2], 8.0),
+    "fast": _Level(_REMOVE_QUICKLY, 0, [], 4.0, worth_trying=6.0),
+    "balanced": _Level(_REMOVE, 1, [0, 2], 8.0, worth_insisting=1.5),
     "smallest": _Level(_REMOVE, 4, [0, 2, 4], 1e9),
 }
 
@@ -262,6 +268,8 @@ def _search(
         SAMPLES_PER_SPAN,
         SAMPLE_WEIGHT,
         level.hope,
+        level.worth_trying,
+        level.worth_insisting,
         watch.ends,
     )
     if watch.stage(search.n_points()):

@@ -13,29 +13,11 @@
 #include <vector>
 
 #include "shapespline/product_rule.hpp"
+#include "shapespline/removal_settings.hpp"
 #include "shapespline/search_polyline.hpp"
 #include "shapespline/spline_start.hpp"
 
 namespace shapespline::removal {
-
-struct Effort {
-    int n_side;  // free control points on each side
-    std::vector<FitStage> stages;
-};
-
-struct RemovalSettings {
-    double tolerance;
-    bool keep_rule;
-    int start;  // which knots it begins with: 0 few, 1 more, 2 the data polyline
-    ProductRule rule;
-    FitLimits fit;
-    double accept;  // part of the tolerance that an accepted curve keeps
-};
-
-struct RemovalCounts {
-    long ranks = 0, trials = 0, accepted = 0, refits = 0, iterations = 0;
-    long missed_bound = 0, missed_gaps = 0, missed_speed = 0, missed_crossings = 0;
-};
 
 template <int Degree>
 class KnotRemoval {
@@ -81,6 +63,7 @@ class KnotRemoval {
             queue.push({cost(static_cast<int>(r), rank), id});
             standing[id] = {true, false};
         }
+        in_vain_ = 0;
         for (long trials = 0; !queue.empty() && trials < most && !ends(interruption);) {
             const auto [cost_before, id] = queue.top();
             queue.pop();
@@ -92,8 +75,14 @@ class KnotRemoval {
                 standing[id] = {true, false};
                 continue;
             }
+            if (in_vain_ >= kInVain && cost_before > settings_.worth_trying) {
+                missed_by_[id] = cost_before;
+                continue;
+            }
             ++trials;
+            ++in_vain_;
             if (!try_removal(r, effort, 0)) continue;
+            in_vain_ = 0;
             for_each_near(r, effort, [&](int near) {
                 standing[near].stale = true;
                 if (standing[near].queued) return;
@@ -111,6 +100,7 @@ class KnotRemoval {
         const long before = counts_.accepted;
         std::vector<int> ids;
         for (std::size_t r = 0; r < state_.knot_ids.size(); ++r) ids.push_back(state_.knot_ids[r]);
+        in_vain_ = 0;
         for (const int id : ids) {
             if (ends(interruption)) break;
             attempt_stubborn(id, effort, spreads);
@@ -128,11 +118,20 @@ class KnotRemoval {
         if (const auto failed = failed_at_.find(id);
             failed != failed_at_.end() && failed->second >= changed_at_[id])
             return;
+        if (const auto missed = missed_by_.find(id);
+            in_vain_ >= kInVain && missed != missed_by_.end() &&
+            missed->second > settings_.worth_insisting)
+            return;
+        ++in_vain_;
         for (const int spread : spreads) {
             const int r = state_.knot_with_id(id);
             if (r < 0 || !state_.removable(r)) return;
             if (!try_removal(r, effort, spread)) continue;
-            for_each_near(r, effort, [&](int near) { changed_at_[near] = counts_.accepted; });
+            in_vain_ = 0;
+            for_each_near(r, effort, [&](int near) {
+                changed_at_[near] = counts_.accepted;
+                missed_by_.erase(near);
+            });
             return;
         }
         failed_at_[id] = counts_.accepted;
@@ -161,6 +160,7 @@ class KnotRemoval {
     static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
     static constexpr double kThinning = 0.025;  // of the tolerance
     static constexpr int kSearchPoints = 150;  // at least; see docs/decisions.md
+    static constexpr int kInVain = 12;  // failures in a row that make others unlikely
     static constexpr int kMedianAge = 256;  // control points for one removal that it may be old
     static constexpr double kTryStale = 0.97;
     static constexpr double kFlatness = 0.01;  // of the tolerance, for crossings
@@ -286,7 +286,9 @@ class KnotRemoval {
     bool try_removal(int r, const Effort &effort, int spread) {
         ++counts_.trials;
         if (!make_candidate(r, spread)) return false;
-        if (fit_candidate(r, effort, settings_.fit) > settings_.fit.enough) return false;
+        const double distance = fit_candidate(r, effort, settings_.fit);
+        missed_by_[state_.knot_ids[state_.gap_index(r)]] = distance;
+        if (distance > settings_.fit.enough) return false;
         if (!accept_distance()) {
             // A tip between two samples: once more with a closer look.
             ++counts_.refits;
@@ -375,6 +377,8 @@ class KnotRemoval {
     MinimaxFit<Degree> fit_;
     RemovalCounts counts_;
     std::map<int, long> failed_at_, changed_at_;  // by knot id, in removals
+    std::map<int, double> missed_by_;  // by knot id, distance of its last trial in tolerances
+    int in_vain_ = 0;  // knots tried since a removal succeeded
 };
 
 }  // namespace shapespline::removal
