@@ -16,6 +16,7 @@
 
 #include "shapespline/bezier.hpp"
 #include "shapespline/bspline.hpp"
+#include "shapespline/chords.hpp"
 #include "shapespline/corner_turn.hpp"
 #include "shapespline/cpda.hpp"
 #include "shapespline/deviation.hpp"
@@ -112,6 +113,31 @@ NB_MODULE(_kernels, m) {
         },
         "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "points"_a.noconvert(),
         "breakpoints"_a.noconvert());
+
+    m.def(
+        "steps_wanted",
+        [](In2 beziers, int degree, double distance, double longest, Out1 wanted) {
+            nb::gil_scoped_release release;
+            ss::dispatch_degree(degree, [&]<int Degree>() {
+                for (std::size_t s = 0; s < wanted.shape(0); ++s)
+                    wanted.data()[s] = ss::steps_wanted<Degree>(
+                        vectors(beziers).subspan(s * (Degree + 1), Degree + 1), distance, longest);
+            });
+        },
+        "beziers"_a.noconvert(), "degree"_a, "distance"_a, "longest"_a, "wanted"_a.noconvert());
+
+    m.def(
+        "chord_points",
+        [](In2 beziers, int degree, In1 breakpoints, InIndices counts, OutPoints points,
+           Out1 parameters) {
+            nb::gil_scoped_release release;
+            ss::dispatch_degree(degree, [&]<int Degree>() {
+                ss::chord_points<Degree>(vectors(beziers), breakpoints.data(), indices(counts),
+                                         vectors(points).data(), parameters.data());
+            });
+        },
+        "beziers"_a.noconvert(), "degree"_a, "breakpoints"_a.noconvert(), "counts"_a.noconvert(),
+        "points"_a.noconvert(), "parameters"_a.noconvert());
 
     m.def(
         "nearest_on_curve",

@@ -30,6 +30,21 @@ def bezier_pieces(
     points: FloatArray,  # out (spans * (degree + 1), 2)
     breakpoints: FloatArray,  # out (spans + 1,)
 ) -> None: ...
+def steps_wanted(
+    beziers: FloatArray,  # (s * (degree + 1), 2)
+    degree: int,
+    distance: float,
+    longest: float,
+    wanted: FloatArray,  # out (s,)
+) -> None: ...
+def chord_points(
+    beziers: FloatArray,  # (s * (degree + 1), 2)
+    degree: int,
+    breakpoints: FloatArray,  # (s + 1,)
+    counts: IntArray,  # (s,)
+    points: FloatArray,  # out (sum of counts + 1, 2)
+    parameters: FloatArray,  # out (sum of counts + 1,)
+) -> None: ...
 def nearest_on_curve(
     knots: FloatArray,
     degree: int,

@@ -46,6 +46,20 @@ def float_array(values: ArrayLike, name: str) -> FloatArray:
         ) from None
 
 
+def median(values: FloatArray) -> float:
+    """Median of a few numbers; numpy's own takes 20 us to ask what they are.
+
+    Examples
+    --------
+    >>> median(np.array([3.0, 1.0, 2.0])), median(np.array([4.0, 1.0, 2.0, 3.0]))
+    (2.0, 2.5)
+    """
+    middle = len(values) // 2
+    below = middle - 1 + len(values) % 2
+    part = np.partition(values, (below, middle))
+    return 0.5 * (float(part[below]) + float(part[middle]))
+
+
 def is_number(value: object) -> bool:
     """Whether a value is a real number, and neither a truth value nor a text."""
     return isinstance(value, Real) and not isinstance(value, bool)

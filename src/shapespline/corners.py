@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.arrays import median
 from shapespline.contour import Contour
 from shapespline.noise import noise_level
 
@@ -86,7 +87,7 @@ def find_corners(contour: Contour, tolerance: float = 0.0) -> Corners:
 def _found(contour: Contour, tolerance: float, sigma: float) -> Corners:
     """Corners among all points."""
     stations = _stations(contour, sigma)
-    spacing, total = float(np.median(np.diff(stations))), float(stations[-1])
+    spacing, total = median(np.diff(stations)), float(stations[-1])
     noise_length = (NOISE_FACTOR * sigma * np.sqrt(spacing)) ** (2 / 3)
     longest = LONGEST_PART * total
     shortest = max(STEPS * spacing, noise_length)
@@ -136,7 +137,7 @@ def _stations(contour: Contour, sigma: float) -> FloatArray:
     """
     steps, width = np.diff(contour.arc_length), 1
     for half in HALF_WINDOWS:
-        quiet = np.sqrt(2.0) * sigma / width <= QUIET_STEP * np.median(steps)
+        quiet = np.sqrt(2.0) * sigma / width <= QUIET_STEP * median(steps)
         width = 2 * half + 1
         if quiet or width > len(contour) // 4:
             break

@@ -33,6 +33,8 @@ def crossing_pairs(
     >>> crossing_pairs([*cross, np.array([(5.0, 5.0), (6.0, 6.0)])])
     {(0, 1)}
     """
+    if len(polylines) < 2:
+        return set()
     lows = np.array([polyline.min(axis=0) for polyline in polylines])
     highs = np.array([polyline.max(axis=0) for polyline in polylines])
     return {

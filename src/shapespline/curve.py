@@ -88,12 +88,26 @@ class BSplineCurve:
             )
         if not np.isfinite(points).all():
             raise InvalidInputError("control_points must be finite, got NaN or infinity")
+        self._set(knots, points, degree, bool(periodic))
+
+    @classmethod
+    def trusted(
+        cls, knots: FloatArray, control_points: FloatArray, degree: int, periodic: bool
+    ) -> BSplineCurve:
+        """The same unchecked and not copied, for arrays that come from a curve."""
+        curve = cls.__new__(cls)
+        curve._set(knots, control_points, degree, periodic)
+        return curve
+
+    def _set(
+        self, knots: FloatArray, control_points: FloatArray, degree: int, periodic: bool
+    ) -> None:
         knots.setflags(write=False)
-        points.setflags(write=False)
+        control_points.setflags(write=False)
         object.__setattr__(self, "knots", knots)
-        object.__setattr__(self, "control_points", points)
+        object.__setattr__(self, "control_points", control_points)
         object.__setattr__(self, "degree", degree)
-        object.__setattr__(self, "periodic", bool(periodic))
+        object.__setattr__(self, "periodic", periodic)
 
     @property
     def n_control_points(self) -> int:
@@ -113,7 +127,10 @@ class BSplineCurve:
     @cached_property
     def breakpoints(self) -> FloatArray:
         """Distinct knots of the domain."""
-        return np.unique(self.knots[self.degree : len(self.knots) - self.degree])
+        inside = self.knots[self.degree : len(self.knots) - self.degree]
+        first = np.ones(len(inside), dtype=bool)
+        np.greater(inside[1:], inside[:-1], out=first[1:])
+        return inside[first]
 
     @property
     def greville(self) -> FloatArray:

@@ -100,7 +100,7 @@ class CentredCurve(NamedTuple):
         """The curve about the middle of a contour's box."""
         middle = np.array([0.5 * (x.min() + x.max()) for x in contour.points.T])
         points = curve.control_points - middle
-        return cls(type(curve)(curve.knots, points, curve.degree, curve.periodic), middle)
+        return cls(curve.trusted(curve.knots, points, curve.degree, curve.periodic), middle)
 
     def nearest(self, points: FloatArray) -> Nearest:
         """Nearest points of the curve, as `nearest` finds them."""
@@ -121,5 +121,6 @@ class CentredCurve(NamedTuple):
 
 def rounding(curve: BSplineCurve, contour: Contour) -> float:
     """A few units in the last place of the largest coordinate."""
-    largest = max(np.abs([a.min(), a.max()]).max() for a in (contour.points, curve.control_points))
+    arrays = (contour.points, curve.control_points)
+    largest = max(max(-array.min(), array.max()) for array in arrays)
     return 8.0 * float(np.finfo(float).eps * largest)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.arrays import is_number
 from shapespline.contour import Contour
 from shapespline.distance import distances_at
@@ -156,32 +157,22 @@ def chords(spline: BSplineCurve, sampling: float | None = None) -> tuple[FloatAr
     """
     if sampling is not None and not (is_number(sampling) and 0 < sampling < np.inf):
         raise InvalidInputError(f"sampling must be a positive length, got {sampling!r}")
-    beziers, breakpoints = spline.beziers()
-    diagonal = float(np.hypot(*np.ptp(beziers.reshape(-1, 2), axis=0)))
+    pieces, breakpoints = spline.beziers()
+    beziers, degree = pieces.reshape(-1, 2), spline.degree
+    diagonal = float(np.hypot(np.ptp(beziers[:, 0]), np.ptp(beziers[:, 1])))
     step = min(SAMPLING * diagonal if sampling is None else sampling, COARSEST * diagonal)
-    p = spline.degree
-    steps = np.diff(beziers, axis=1)
     # At least so many that no step is long: a fit tells corners from bends by what lies around.
-    wanted = np.hypot(steps[..., 0], steps[..., 1]).sum(axis=1) / (LONGEST_STEP * diagonal)
-    if p > 1:
-        second = np.diff(steps, axis=1)
-        bend = np.hypot(second[..., 0], second[..., 1]).max(axis=1)
-        wanted = np.maximum(wanted, np.sqrt(p * (p - 1) * bend / (8 * step)))
+    wanted = np.empty(len(pieces))
+    _kernels.steps_wanted(beziers, degree, step, LONGEST_STEP * diagonal, wanted)
     if not wanted.sum() <= MOST_SAMPLES:
         raise InvalidInputError(
             f"sampling asks for {wanted.sum():.2g} points on one outline, got {sampling!r} for a"
             f" size of {diagonal:.6g}; raise it"
         )
     counts = np.maximum(1, np.ceil(wanted)).astype(np.int64)
-    starts = np.concatenate([[0], np.cumsum(counts)])
-    index = np.arange(starts[-1]) - np.repeat(starts[:-1], counts)
-    inner = np.repeat(breakpoints[:-1], counts) + index * np.repeat(
-        np.diff(breakpoints) / counts, counts
-    )
-    parameters = np.concatenate([inner, breakpoints[-1:]])
-    points = spline(parameters)
-    # Where pieces meet the ends are known exactly.
-    points[starts[:-1]], points[-1] = beziers[:, 0], beziers[-1, -1]
+    parameters = np.empty(counts.sum() + 1)
+    points = np.empty((len(parameters), 2))
+    _kernels.chord_points(beziers, degree, breakpoints, counts, points, parameters)
     if spline.periodic:  # knot insertion may miss it by a rounding
         points[-1] = points[0]
     return points, parameters

@@ -10,12 +10,12 @@ import numpy as np
 from shapespline import _kernels
 from shapespline.averaging import averaged
 from shapespline.contour import Contour
-from shapespline.curve import BSplineCurve
 from shapespline.joining import backwards
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from shapespline.curve import BSplineCurve
     from shapespline.drawing import Piece
     from shapespline.typing import FloatArray, IntArray
 
@@ -68,8 +68,8 @@ class WorkingFrame(NamedTuple):
         scale = ldexp(1.0, 7 - frexp(contour.box_diagonal)[1])
         middle = np.array([x.min() + 0.5 * np.ptp(x) for x in points.T])
         moved = (points[order] - middle) * scale
-        x, y = moved[:, 0], moved[:, 1]
-        if ((x == np.roll(x, -1)) & (y == np.roll(y, -1))).any():
+        same = moved[1:] == moved[:-1]
+        if (same[:, 0] & same[:, 1]).any() or (moved[0] == moved[-1]).all():
             # Neighbours so close that they fall together far from the origin: leave the origin.
             middle = np.zeros(2)
             moved = points[order] * scale
@@ -146,7 +146,7 @@ class WorkingFrame(NamedTuple):
     def restored_curve(self, curve: BSplineCurve) -> BSplineCurve:
         """A curve over [0, 1] in the unit and direction of the data."""
         control_points = curve.control_points / self.scale + self.middle
-        moved = BSplineCurve(curve.knots, control_points, curve.degree, curve.periodic)
+        moved = curve.trusted(curve.knots, control_points, curve.degree, curve.periodic)
         return reversed_curve(moved) if self.reversed else moved
 
 
@@ -156,7 +156,8 @@ def reversed_curve(curve: BSplineCurve) -> BSplineCurve:
     if curve.periodic:  # the points beyond the seam have changed sides
         control_points = np.roll(control_points, curve.degree, axis=0)
     knots = np.ascontiguousarray(1.0 - curve.knots[::-1])
-    return BSplineCurve(knots, np.ascontiguousarray(control_points), curve.degree, curve.periodic)
+    points = np.ascontiguousarray(control_points)
+    return curve.trusted(knots, points, curve.degree, curve.periodic)
 
 
 def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline.arrays import median
+
 if TYPE_CHECKING:
     from shapespline.contour import Contour
 
@@ -51,5 +53,5 @@ def noise_level(contour: Contour) -> float:
     x, y = ((axis[index] - axis[0]) @ _SLOPE_AND_REST for axis in contour.points.T)
     across = x[:, 1:] * y[:, :1] - y[:, 1:] * x[:, :1]
     speed_sq = np.maximum(x[:, 0] ** 2 + y[:, 0] ** 2, np.finfo(float).tiny)
-    level_sq = float(np.median((across**2).sum(axis=1) / speed_sq)) / _CHI_SQUARED_MEDIAN
+    level_sq = median((across**2).sum(axis=1) / speed_sq) / _CHI_SQUARED_MEDIAN
     return max(known, float(np.sqrt(level_sq)))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.arrays import median
 from shapespline.contour import Contour
 from shapespline.corners import GENTLE_TURN, find_corners
 from shapespline.errors import InvalidInputError
@@ -133,7 +134,7 @@ def filled(contour: Contour) -> Contour:
     """
     polyline = contour.polyline
     steps = np.hypot(*np.diff(polyline, axis=0).T)
-    parts = np.where(steps > LONG_EDGE * np.median(steps), 2 * FEWEST_STRAIGHT, 1)
+    parts = np.where(steps > LONG_EDGE * median(steps), 2 * FEWEST_STRAIGHT, 1)
     if (parts == 1).all():
         return contour
     begins = np.repeat(np.arange(len(steps)), parts)
