@@ -114,6 +114,9 @@ class CurveSearch {
     // Newton's method squares its error: what is left after a step so small is nothing to the
     // distance, which it changes by its square again.
     static constexpr double kLastStep = 1e-7;
+    // The distance after such a step is not asked for where it shortens the square by this part of
+    // it at most: that before it will do, 5e-14 of the length of the piece too long at most.
+    static constexpr double kNothing = 1e-12;
 
     // Pieces whose control polygon is at most 2 % longer than its chord: on them the squared
     // distance to a point has one minimum, unless the point is near the centre of curvature, where
@@ -176,6 +179,10 @@ class CurveSearch {
             const double next = std::clamp(s - slope / curvature, 0.0, 1.0);
             if (next == s) break;
             last = curvature == newton && std::abs(next - s) <= kLastStep;
+            if (last && slope * slope <= kNothing * newton * norm_sq(r)) {
+                if (best_s == s) best_s = next;
+                break;
+            }
             s = next;
         }
         return {best_sq, piece.begin + best_s * (piece.end - piece.begin), best_s, index,
