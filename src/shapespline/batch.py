@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 # A task holds contours until it has so many points, or so many contours: small enough to share the
 # work evenly and to report progress, large enough that handing it over costs next to nothing.
-TASK_POINTS = 20_000
+TASK_POINTS = 5_000
 TASK_CONTOURS = 64
 
 

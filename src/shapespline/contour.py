@@ -227,6 +227,13 @@ class Contour:
         object.__setattr__(self, "source", source)
         object.__setattr__(self, "accuracy", accuracy)
 
+    # Between processes go the fields alone, and come back read-only.
+    def __getstate__(self) -> tuple[FloatArray, bool, IntArray, float | None]:
+        return self.points, self.closed, self.source, self.accuracy
+
+    def __setstate__(self, state: tuple[FloatArray, bool, IntArray, float | None]) -> None:
+        self._set(*state)
+
     def __len__(self) -> int:
         return len(self.points)
 

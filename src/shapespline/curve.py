@@ -109,6 +109,13 @@ class BSplineCurve:
         object.__setattr__(self, "degree", degree)
         object.__setattr__(self, "periodic", periodic)
 
+    # Between processes go the fields alone, and come back read-only.
+    def __getstate__(self) -> tuple[FloatArray, FloatArray, int, bool]:
+        return self.knots, self.control_points, self.degree, self.periodic
+
+    def __setstate__(self, state: tuple[FloatArray, FloatArray, int, bool]) -> None:
+        self._set(*state)
+
     @property
     def n_control_points(self) -> int:
         """Number of distinct control points."""
