@@ -70,7 +70,7 @@ class _Level(NamedTuple):
 
 LEVELS = {
     "fast": _Level(_REMOVE_QUICKLY, 0, [], 4.0, worth_trying=6.0),
-    "balanced": _Level(_REMOVE, 1, [0, 2], 8.0, worth_insisting=1.5),
+    "balanced": _Level(_REMOVE, 1, [0, 2], 8.0, worth_insisting=2.0),
     "smallest": _Level(_REMOVE, 4, [0, 2, 4], 1e9),
 }
 
