@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy.interpolate import BSpline, make_splprep, splprep
 
-from benchmarks.outside_metric import Array, distance_to_polyline, two_sided
+from benchmarks.outside_metric import Array, two_sided
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -133,7 +133,10 @@ def _kept(points: Array, tolerance: float) -> int:
         if end - begin < 2:
             continue
         inside = points[begin + 1 : end]
-        off = distance_to_polyline(inside, points[[begin, end]], np.inf)
+        chord = points[end] - points[begin]
+        along = (inside - points[begin]) @ chord / max(chord @ chord, np.finfo(float).tiny)
+        foot = points[begin] + np.clip(along, 0.0, 1.0)[:, None] * chord
+        off = np.hypot(*(inside - foot).T)
         worst = int(np.argmax(off))
         if off[worst] > tolerance:
             kept += 1

@@ -100,7 +100,7 @@ class CentredCurve(NamedTuple):
         """The curve about the middle of a contour's box."""
         middle = np.array([0.5 * (x.min() + x.max()) for x in contour.points.T])
         points = curve.control_points - middle
-        return cls(curve.trusted(curve.knots, points, curve.degree, curve.periodic), middle)
+        return cls(type(curve).trusted(curve.knots, points, curve.degree, curve.periodic), middle)
 
     def nearest(self, points: FloatArray) -> Nearest:
         """Nearest points of the curve, as `nearest` finds them."""

@@ -146,7 +146,7 @@ class WorkingFrame(NamedTuple):
     def restored_curve(self, curve: BSplineCurve) -> BSplineCurve:
         """A curve over [0, 1] in the unit and direction of the data."""
         control_points = curve.control_points / self.scale + self.middle
-        moved = curve.trusted(curve.knots, control_points, curve.degree, curve.periodic)
+        moved = type(curve).trusted(curve.knots, control_points, curve.degree, curve.periodic)
         return reversed_curve(moved) if self.reversed else moved
 
 
@@ -157,7 +157,7 @@ def reversed_curve(curve: BSplineCurve) -> BSplineCurve:
         control_points = np.roll(control_points, curve.degree, axis=0)
     knots = np.ascontiguousarray(1.0 - curve.knots[::-1])
     points = np.ascontiguousarray(control_points)
-    return curve.trusted(knots, points, curve.degree, curve.periodic)
+    return type(curve).trusted(knots, points, curve.degree, curve.periodic)
 
 
 def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
