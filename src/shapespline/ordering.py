@@ -44,7 +44,7 @@ FAR = 6.0
 # Points are shuffled if there are so many and a step is this part of the box diagonal in the mean.
 # Shuffled outlines have 0.2 to 0.5, ordered ones of so many points less than 0.1.
 FEWEST_SHUFFLED, ACROSS = 30, 0.15
-MOST_LOOKED_AT = 100_000
+MOST_LOOKED_AT = 20_000
 # Chains of fewer points are outliers where there are longer ones.
 FEWEST = 4
 

@@ -9,7 +9,7 @@ import numpy as np
 from shapespline.errors import DegenerateContourError, InvalidInputError, ShapesplineError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from shapespline.distance import CentredCurve
     from shapespline.point_stream import PointStream, TurnedRows
@@ -93,12 +93,19 @@ class Passes:
         found = self.over_all(_measure, [(curve, feet, begin) for begin in begins])
         return Measured(max(m.largest for m in found), float(np.sum([m.total for m in found])))
 
-    def over_all(self, function: Any, arguments: Sequence[tuple[Any, ...]]) -> list[Any]:
-        """Results of a function of every chunk; each is told to the caller."""
+    def over_all(
+        self,
+        function: Any,
+        arguments: Sequence[tuple[Any, ...]],
+        known: Mapping[int, Any] | None = None,
+    ) -> list[Any]:
+        """Results of a function of every chunk, but those known; each is told to the caller."""
+        known = {} if known is None else known
+        asked = [k for k in range(len(self.stream)) if k not in known]
+        found = self.stream.map(function, [arguments[k] for k in asked], asked)
         results = []
-        sizes = np.diff(self.stream.begins).tolist()
-        for size, result in zip(sizes, self.stream.map(function, arguments), strict=True):
-            results.append(result)
+        for k, size in enumerate(np.diff(self.stream.begins).tolist()):
+            results.append(known[k] if k in known else next(found))
             self._done += size
             if self._progress is not None and self._progress(self._done, self._total):
                 raise ShapesplineError(

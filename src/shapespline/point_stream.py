@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from concurrent.futures import Executor, Future
 
-    from shapespline.typing import FloatArray, IntArray
+    from shapespline.typing import FloatArray
 
 # Points of a chunk: two megabytes, which the caches of a core hold and whose handling costs
 # far more than calling for it.
@@ -85,6 +85,8 @@ class PointStream:
     def read(self, begin: int, end: int) -> FloatArray:
         """Some of the points, shape (end - begin, 2), float64."""
         rows = self._points[begin:end]
+        if type(rows) is np.ndarray and rows.dtype == np.float64 and rows.flags.c_contiguous:
+            return rows  # nobody writes to it
         read = float_array(rows.compute() if self._blocks is not None else rows, "points")
         mapped = getattr(self._points, "_mmap", None)
         if mapped is not None and self._points.mode == "r" and hasattr(mmap, "MADV_DONTNEED"):
@@ -148,17 +150,29 @@ class TurnedRows:
     """
 
     def __init__(self, rows: FloatArray, start: int, step: int) -> None:
-        self._rows, self._start, self._step = rows, start, step
+        self._rows = rows[::step]
+        self._first = start if step > 0 else len(rows) - 1 - start
         self.shape, self.dtype = rows.shape, rows.dtype
 
     def __getitem__(self, part: slice) -> FloatArray:
-        return self._rows.take(self._places(part), axis=0, mode="wrap")
+        here, beyond = self._pieces(part)
+        return (
+            self._rows[here]
+            if beyond.stop == 0
+            else np.concatenate([self._rows[here], self._rows[beyond]])
+        )
 
     def __setitem__(self, part: slice, values: FloatArray) -> None:
-        self._rows.put(self._places(part), values, mode="wrap")
+        here, beyond = self._pieces(part)
+        split = len(values) - beyond.stop
+        self._rows[here], self._rows[beyond] = values[:split], values[split:]
 
-    def _places(self, part: slice) -> IntArray:
-        return self._start + self._step * np.arange(part.start, part.stop)
+    def _pieces(self, part: slice) -> tuple[slice, slice]:
+        """Rows up to the last one, and those that go on from the first."""
+        n = len(self._rows)
+        begin = (self._first + part.start) % n
+        end = begin + part.stop - part.start
+        return slice(begin, min(end, n)), slice(0, max(end - n, 0))
 
 
 def _map_blocks(

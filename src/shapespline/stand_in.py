@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -56,38 +56,37 @@ class StandIn(NamedTuple):
         """
         # Each chunk goes on to the first point of the next, so that nothing lies between them.
         ahead: list[FloatArray | None] = [*seen.firsts[1:], seen.firsts[0] if closed else None]
-        counts: list[float] = []
+
+        def trial(part: float) -> _Trial:
+            return _Trial.of(passes.stream, ahead, part * tolerance, longest)
+
         for part in THINNINGS[:2]:
-            counts.append(_expected(passes.stream, ahead, part * tolerance, longest))
-            if counts[-1] <= FEW_VERTICES:
-                return cls._thinned(passes, ahead, part * tolerance, longest)
+            tried = trial(part)
+            if tried.expected <= FEW_VERTICES:
+                return cls._thinned(passes, tried)
         scatters = [_scatter(passes.stream, width) for width in WIDTHS]
         scatter, width = min(scatters), best_width(scatters)
         if scatter <= MOST_SCATTER * tolerance:
             averaged = cls._averaged(passes, seen, closed, width)
             if averaged.off <= MOST_SCATTER * tolerance:
                 return averaged._kept_of(THINNINGS[0] * tolerance, longest, closed)
-        rest = THINNINGS[2:]
-        counts += [_expected(passes.stream, ahead, part * tolerance, longest) for part in rest]
-        for part, count in zip(THINNINGS, counts, strict=True):
-            if count <= MOST_VERTICES:
-                return cls._thinned(passes, ahead, part * tolerance, longest)
+        for part in THINNINGS:
+            tried = trial(part)
+            if tried.expected <= MOST_VERTICES:
+                return cls._thinned(passes, tried)
         raise InvalidInputError(
             f"tolerance must be larger for these points, got {tolerance:.6g}: they scatter by about"
-            f" {scatter:.3g}, and thinned by {part:g} of the tolerance {count:.2g} of"
+            f" {scatter:.3g}, and thinned by {part:g} of the tolerance {tried.expected:.2g} of"
             f" {passes.stream.n_points} stay, more than {MOST_VERTICES}"
         )
 
     @classmethod
-    def _thinned(
-        cls, passes: Passes, ahead: list[FloatArray | None], distance: float, longest: float
-    ) -> StandIn:
-        arguments = [(after, distance, longest) for after in ahead]
-        kept = passes.over_all(_thin, arguments)
+    def _thinned(cls, passes: Passes, tried: _Trial) -> StandIn:
+        kept = passes.over_all(_thin, tried.arguments, tried.thinned)
         begins = passes.stream.begins
         indices = [begin + part.indices for begin, part in zip(begins, kept, strict=False)]
         points = np.concatenate([part.points for part in kept])
-        return cls(points, np.concatenate(indices), distance)
+        return cls(points, np.concatenate(indices), kept[0].off)
 
     @classmethod
     def _averaged(cls, passes: Passes, seen: Seen, closed: bool, width: int) -> StandIn:
@@ -119,15 +118,28 @@ def _tried(stream: PointStream) -> list[int]:
     return sorted({0, len(stream) // 2, len(stream) - 1})
 
 
-def _expected(
-    stream: PointStream, ahead: list[FloatArray | None], distance: float, longest: float
-) -> float:
-    """About how many points thinning leaves."""
-    tried = _tried(stream)
-    arguments = [(ahead[k], distance, longest) for k in tried]
-    asked = sum(stream.begins[k + 1] - stream.begins[k] for k in tried)
-    count = sum(len(part.indices) for part in stream.map(_thin, arguments, tried))
-    return count * stream.n_points / asked
+class _Trial(NamedTuple):
+    """Thinning by one distance, of a few chunks as yet: about how many points it leaves of all."""
+
+    arguments: list[tuple[Any, ...]]
+    thinned: dict[int, StandIn]
+    expected: float
+
+    @classmethod
+    def of(
+        cls,
+        stream: PointStream,
+        ahead: list[FloatArray | None],
+        distance: float,
+        longest: float,
+    ) -> _Trial:
+        arguments = [(after, distance, longest) for after in ahead]
+        tried = _tried(stream)
+        found = stream.map(_thin, [arguments[k] for k in tried], tried)
+        thinned = dict(zip(tried, found, strict=True))
+        asked = sum(stream.begins[k + 1] - stream.begins[k] for k in tried)
+        left = sum(len(part.indices) for part in thinned.values())
+        return cls(arguments, thinned, left * stream.n_points / asked)
 
 
 def _scatter(stream: PointStream, width: int) -> float:

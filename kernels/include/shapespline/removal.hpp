@@ -158,7 +158,7 @@ class KnotRemoval {
     };
     static constexpr int kRefitSamples = 24;
     static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
-    static constexpr double kThinning = 0.025;  // of the tolerance
+    static constexpr double kThinning = 0.025, kBendPart = 5.0;  // of the tolerance
     static constexpr int kSearchPoints = 150;  // at least; see docs/decisions.md
     static constexpr int kInVain = 12;  // failures in a row that make others unlikely
     static constexpr int kMedianAge = 256;  // control points for one removal that it may be old
@@ -170,8 +170,8 @@ class KnotRemoval {
     // product rule is taken, or else the first.
     bool start_by_insertion(Interruption &interruption) {
         SplineState<Degree> first;
-        for (const int count : first_counts()) {
-            if (!start_by_insertion(std::max(count, 3 * Degree + 4), interruption)) continue;
+        for (const std::vector<int> &knots : first_knots()) {
+            if (!start_by_insertion(knots, interruption)) continue;
             measure_rule();
             if (!settings_.keep_rule || start_keeps_rule()) return true;
             if (!first.points.empty()) break;
@@ -182,10 +182,16 @@ class KnotRemoval {
         measure_rule();
         return true;
     }
-    std::vector<int> first_counts() const {
-        if (settings_.start == 0) return {24, 37, 56};
-        if (settings_.start == 1) return {56, 83};
-        return {};
+    // Few knots cut across the bends of an outline that has many; its chords show where they are.
+    std::vector<std::vector<int>> first_knots() const {
+        const auto even = [&](int count) {
+            return even_points(search_, std::max(count, 3 * Degree + 4));
+        };
+        if (settings_.start == 1) return {even(56), even(83)};
+        if (settings_.start != 0) return {};
+        const double distance = kBendPart * settings_.tolerance;
+        const std::vector<int> bends = chord_vertices(search_, distance, search_.total);
+        return {bends.size() > 37 ? bends : even(24), even(37), even(56)};
     }
     bool start_keeps_rule() const {
         return slowest_ >= settings_.rule.speed_ratio && n_crossings_ <= n_data_crossings_;
@@ -199,17 +205,11 @@ class KnotRemoval {
         slowest_ = slowest_speed(all, settings_.rule.speed_ratio * median_) / median_;
         gap_ratio_ = gap_ratio(all);
     }
-    bool start_by_insertion(int count, Interruption &interruption) {
-        const int n = search_.size();
-        count = std::min(n, count);
-        std::vector<int> at;
-        for (int i = 0; i < count; ++i)
-            at.push_back(static_cast<int>(static_cast<long>(i) * (search_.closed ? n : n - 1) /
-                                          (search_.closed ? count : count - 1)));
-        state_ = chord_length_spline<Degree>(search_, at);
+    bool start_by_insertion(const std::vector<int> &knots, Interruption &interruption) {
+        state_ = chord_length_spline<Degree>(search_, knots);
         KnotInsertion<Degree> insertion(search_.points, settings_.fit);
         for (double enough = settings_.fit.enough; enough > kLeastEnough; enough *= kTighter) {
-            if (!insertion.run(state_, enough, n, interruption)) return false;
+            if (!insertion.run(state_, enough, search_.size(), interruption)) return false;
             if (is_proven(state_)) return true;
         }
         return false;

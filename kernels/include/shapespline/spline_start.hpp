@@ -68,6 +68,17 @@ SplineState<Degree> chord_length_spline(const ArcPolyline &data, std::span<const
     return state;
 }
 
+// So many data points, all if there are fewer, evenly spread by their number.
+inline std::vector<int> even_points(const ArcPolyline &data, int count) {
+    const int n = data.size();
+    count = std::min(n, count);
+    std::vector<int> at;
+    for (int i = 0; i < count; ++i)
+        at.push_back(static_cast<int>(static_cast<long>(i) * (data.closed ? n : n - 1) /
+                                      (data.closed ? count : count - 1)));
+    return at;
+}
+
 // A polyline within a distance of the data as a spline: its vertices are knots of full
 // multiplicity.
 template <int Degree>
