@@ -22,6 +22,7 @@
 #include "shapespline/deviation.hpp"
 #include "shapespline/footpoint.hpp"
 #include "shapespline/mean_distance.hpp"
+#include "shapespline/normal_equations.hpp"
 #include "shapespline/outline_search.hpp"
 #include "shapespline/removal_search.hpp"
 #include "shapespline/residuals.hpp"

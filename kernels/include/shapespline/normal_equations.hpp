@@ -1,0 +1,198 @@
+// The Levenberg-Marquardt step with the location parameters eliminated: the normal equations in the
+// control points alone, collected in O(n) and solved in their envelope.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "shapespline/envelope.hpp"
+#include "shapespline/samples.hpp"
+#include "shapespline/span_cursor.hpp"
+
+namespace shapespline {
+
+// The normal matrix couples control points whose basis functions overlap: two unknowns a point, x
+// and y interleaved, half-bandwidth 2 degree + 1, cyclic when periodic.
+inline EnvelopeMatrix normal_matrix(std::size_t n_points, int degree, bool periodic) {
+    std::vector<std::size_t> first(2 * n_points);
+    for (std::size_t i = 0; i < n_points; ++i) {
+        const bool wraps = periodic && i + degree >= n_points;
+        const std::size_t reach = std::min<std::size_t>(i, degree);
+        first[2 * i] = first[2 * i + 1] = wraps ? 0 : 2 * (i - reach);
+    }
+    return EnvelopeMatrix(std::move(first));
+}
+
+// The part of the normal equations that one span's points make, kept apart until the span is left:
+// the points come nearly in order, so the large matrix is touched once a span.
+template <int Degree>
+class LocalSystem {
+  public:
+    void enter(const CurveCursor<Degree> &) {}
+
+    // Adds N N' (x) W and -N (x) W r for W = w (I - inv_h t t').
+    void add(const CurveCursor<Degree> &cursor, Vec2 r, Vec2 t, double w, double inv_h) {
+        const std::array<double, Degree + 1> &basis = cursor.basis();
+        const double wxx = w * (1.0 - t.x * t.x * inv_h), wxy = -w * t.x * t.y * inv_h,
+                     wyy = w * (1.0 - t.y * t.y * inv_h);
+        const Vec2 pull{wxx * r.x + wxy * r.y, wxy * r.x + wyy * r.y};
+        std::array<double, kWidth> bxx{}, bxy{}, byy{};
+        for (int b = 0; b <= Degree; ++b) {
+            bxx[b] = basis[b] * wxx;
+            bxy[b] = basis[b] * wxy;
+            byy[b] = basis[b] * wyy;
+        }
+        for (int a = 0; a <= Degree; ++a) {
+            rhs_[a] += -basis[a] * pull;
+            const double na = basis[a];
+            for (int b = 0; b < kWidth; ++b) {
+                xx_[a][b] += na * bxx[b];
+                xy_[a][b] += na * bxy[b];
+                yy_[a][b] += na * byy[b];
+            }
+        }
+    }
+
+    // Moves what was collected for control points first .. first + Degree into the system.
+    void flush(std::size_t first, EnvelopeMatrix &matrix, std::vector<double> &rhs) {
+        const std::size_t m = matrix.size() / 2;
+        for (int a = 0; a <= Degree; ++a) {
+            const std::size_t ia = (first + a) % m;
+            rhs[2 * ia] += rhs_[a].x;
+            rhs[2 * ia + 1] += rhs_[a].y;
+            for (int b = 0; b <= a; ++b) {
+                const std::size_t ib = (first + b) % m;
+                const std::size_t i = std::max(ia, ib), k = std::min(ia, ib);
+                matrix.at(2 * i, 2 * k) += xx_[a][b];
+                matrix.at(2 * i + 1, 2 * k) += xy_[a][b];
+                matrix.at(2 * i + 1, 2 * k + 1) += yy_[a][b];
+                if (k < i) matrix.at(2 * i, 2 * k + 1) += xy_[a][b];
+            }
+        }
+        *this = LocalSystem{};
+    }
+
+  private:
+    // Whole rows of an even number of columns, of which flush reads the lower triangle: twice the
+    // products, but all of them in vector registers.
+    static constexpr int kWidth = (Degree + 2) / 2 * 2;
+    std::array<std::array<double, kWidth>, Degree + 1> xx_{}, xy_{}, yy_{};
+    std::array<Vec2, Degree + 1> rhs_{};
+};
+
+struct StepResult {
+    bool solved;
+    double cost;
+    double predicted_cost;  // of the linearised residuals after the step
+    double gradient_norm;   // of f in the control points, parameters eliminated
+};
+
+// Levenberg-Marquardt step with the parameters eliminated: with h_j = |T_j|^2 (1 + lambda) and
+// W_j = I - T_j T_j' / h_j,
+//     (sum w N N' (x) W + lambda D) dP = -sum w N (x) W r,   dt_j = -T_j . (r_j + dC_j) / h_j.
+// D is the diagonal of the matrix plus 1e-11 of its largest entry. With parts c_j of the residuals
+// along the tangent to be counted, W_j = I - (1 - c_j) T_j T_j' / |T_j|^2 instead.
+inline StepResult damped_step(const Knots &knots, std::span<const Vec2> control_points,
+                              const Samples &samples, double damping,
+                              std::span<Vec2> control_step, double *parameter_step) {
+    const std::size_t m = control_points.size();
+    const std::vector<Vec2> unrolled = unroll(control_points, knots.n_coefficients());
+    EnvelopeMatrix matrix = normal_matrix(m, knots.degree, knots.periodic);
+    std::vector<double> rhs(2 * m, 0.0);
+    StepResult result{false, 0.0, 0.0, 0.0};
+
+    double largest_speed_sq = 0.0;
+    for (const Vec2 d : derivative_points(knots, unrolled))
+        largest_speed_sq = std::max(largest_speed_sq, norm_sq(d));
+    const double speed_floor = 1e-12 * largest_speed_sq;
+    // 1 / h_j, zero where the parameter does not move: fixed, or the curve stands still.
+    const auto inverse_h = [&](std::size_t j, Vec2 tangent) {
+        const double speed_sq = norm_sq(tangent);
+        if (samples.is_held(j) || speed_sq == 0.0) return 0.0;
+        if (samples.along) return (1.0 - samples.along[j]) / std::max(speed_sq, speed_floor);
+        return 1.0 / (std::max(speed_sq, speed_floor) * (1.0 + damping));
+    };
+
+    dispatch_degree(knots.degree, [&]<int Degree>() {
+        constexpr bool kMoments = Degree <= kMomentDegree;
+        std::conditional_t<kMoments, SpanCursor<Degree>, CurveCursor<Degree>> cursor(knots,
+                                                                                     unrolled);
+        std::conditional_t<kMoments, LocalMoments<Degree>, LocalSystem<Degree>> local;
+        cursor.seek(samples.parameters[0]);
+        std::size_t first = cursor.first_index();
+        local.enter(cursor);
+        const auto follow = [&] {
+            if (cursor.first_index() == first) return;
+            local.flush(first, matrix, rhs);
+            first = cursor.first_index();
+            local.enter(cursor);
+        };
+        for (std::size_t j = 0; j < samples.size(); ++j) {
+            cursor.seek(samples.parameters[j]);
+            follow();
+            const Vec2 r = cursor.point() - samples.points[j];
+            const Vec2 t = cursor.tangent();
+            const double w = samples.weight(j);
+            local.add(cursor, r, t, w, inverse_h(j, t));
+            result.cost += 0.5 * w * norm_sq(r);
+        }
+        for_each_stray(knots, samples, [&](const Stray &stray) {
+            cursor.seek(stray.parameter);
+            follow();
+            const Vec2 r = cursor.point() - stray.target;
+            local.add(cursor, r, Vec2{}, stray.weight, 0.0);
+            result.cost += 0.5 * stray.weight * norm_sq(r);
+        });
+        local.flush(first, matrix, rhs);
+    });
+
+    double largest = 0.0;
+    for (std::size_t i = 0; i < 2 * m; ++i) largest = std::max(largest, matrix.at(i, i));
+    for (std::size_t i = 0; i < 2 * m; ++i)
+        matrix.at(i, i) += damping * (matrix.at(i, i) + 1e-11 * largest);
+    if (samples.control_ends_fixed) {
+        for (const std::size_t fixed : {std::size_t{0}, std::size_t{1}, 2 * m - 2, 2 * m - 1}) {
+            for (std::size_t k = matrix.first_column(fixed); k < fixed; ++k)
+                matrix.at(fixed, k) = 0.0;
+            for (std::size_t i = fixed + 1; i < 2 * m; ++i)
+                if (matrix.first_column(i) <= fixed) matrix.at(i, fixed) = 0.0;
+            matrix.at(fixed, fixed) = 1.0;
+            rhs[fixed] = 0.0;
+        }
+    }
+    for (const double g : rhs) result.gradient_norm += g * g;
+    result.gradient_norm = std::sqrt(result.gradient_norm);
+    if (!matrix.factorize()) return result;
+    result.solved = true;
+    matrix.solve(rhs);
+    for (std::size_t i = 0; i < m; ++i) control_step[i] = {rhs[2 * i], rhs[2 * i + 1]};
+
+    std::vector<Vec2> moved = unroll(control_step, unrolled.size());
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += unrolled[i];
+    dispatch_degree(knots.degree, [&]<int Degree>() {
+        using Cursor = std::conditional_t<Degree <= kMomentDegree, SpanCursor<Degree>,
+                                          CurveCursor<Degree>>;
+        Cursor cursor(knots, unrolled), next(knots, moved);
+        for (std::size_t j = 0; j < samples.size(); ++j) {
+            cursor.seek(samples.parameters[j]);
+            next.seek(samples.parameters[j]);
+            const Vec2 t = cursor.tangent();
+            const Vec2 residual = next.point() - samples.points[j];
+            parameter_step[j] = -dot(t, residual) * inverse_h(j, t);
+            result.predicted_cost +=
+                0.5 * samples.weight(j) * norm_sq(residual + parameter_step[j] * t);
+        }
+        for_each_stray(knots, samples, [&](const Stray &stray) {
+            next.seek(stray.parameter);
+            result.predicted_cost += 0.5 * stray.weight * norm_sq(next.point() - stray.target);
+        });
+    });
+    return result;
+}
+
+}  // namespace shapespline
