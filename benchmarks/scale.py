@@ -26,7 +26,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.interpolate import splprep
+from scipy.interpolate import splev, splprep
+from scipy.spatial import cKDTree
 
 import shapespline as ss
 from benchmarks.peers import polyline_points, splprep_points
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
 
 # The coastlines' tolerances, parts of the box diagonal, coarse to fine.
 COAST_PARTS = (0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001)
+DENSE = np.linspace(0, 1, 200_000)
 COASTS = ("ne10m_iceland", "gshhg_h_newfoundland", "gshhg_f_hokkaido")
 
 
@@ -184,6 +186,34 @@ def passes() -> None:
     )
 
 
+def squares() -> None:
+    """Print least squares over all points beside those of a sample, and beside splprep's."""
+    print("\n## 120 control points by least squares, scatter 0.3: how far from the true curve\n")
+    print("| points | fit_large s | passes | rms | 20 000 of them | splprep, even knots, s | rms |")
+    print("|---|---|---|---|---|---|---|")
+    truth = wiggly(5000)
+
+    def off(curve: object) -> float:
+        return float(np.sqrt(np.mean(cKDTree(curve(DENSE)).query(truth)[0] ** 2)))
+
+    for n in (100_000, 1_000_000):
+        points = wiggly(n) + np.random.default_rng(0).normal(0, 0.3, (n, 2))
+        began = time.perf_counter()
+        fit = ss.fit_large(points, closed=True, n_control_points=120)
+        seconds = time.perf_counter() - began
+        sample = ss.fit_curve(points[:: n // 20_000], closed=True, n_control_points=120)
+        track = np.concatenate([points, points[:1]]).T
+        knots, u = np.linspace(0, 1, 121), np.linspace(0, 1, n + 1)
+        began = time.perf_counter()
+        (tck, _), *_ = splprep(track, u=u, t=knots, task=-1, per=True, full_output=True)
+        peer = time.perf_counter() - began
+        print(
+            f"| {n} | {seconds:.2f} | {fit.history[-1].evaluations} | {off(fit.curve):.4f}"
+            f" | {off(sample.curve):.4f} | {peer:.2f}"
+            f" | {off(lambda u, tck=tck: np.column_stack(splev(u, tck))):.4f} |"
+        )
+
+
 def coastlines() -> list[tuple[str, int, float]]:
     """Print time against the number of control points."""
     print("\n## Coastlines, balanced: time against stored points\n")
@@ -248,7 +278,11 @@ def memory(most: int) -> None:
     """Print the peak memory over the input, each in a process of its own."""
     print("\n## Peak memory\n")
     print("| | points | over the input, MB | bytes a point |\n|---|---|---|---|")
-    for how, n in (("fit_curve, in memory", 1_000_000), ("fit_large, a file", 10**most)):
+    for how, n in (
+        ("fit_curve, in memory", 1_000_000),
+        ("fit_large, a file", 10**most),
+        ("fit_large, a file, least squares", 10**most),
+    ):
         done = subprocess.run(
             [sys.executable, "-m", "benchmarks.scale", "--child", how, str(n)],
             capture_output=True,
@@ -275,7 +309,8 @@ def child(how: str, n: int) -> None:
         Path("/proc/self/clear_refs").write_text("5")  # the peak begins here
         before = _resident("VmRSS")
         fit = ss.fit_large if "file" in how else ss.fit_curve
-        fit(points, closed=True, tolerance=0.1)
+        wanted = {"n_control_points": 120} if "squares" in how else {"tolerance": 0.1}
+        fit(points, closed=True, **wanted)
         print(_resident("VmHWM") - before)
 
 
@@ -317,6 +352,7 @@ def everything(most: int) -> tuple[dict[str, list[Run]], list[tuple[str, int, fl
     tolerances()
     noisy()
     passes()
+    squares()
     coasts = coastlines()
     small_outlines()
     memory(most)

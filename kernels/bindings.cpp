@@ -22,6 +22,7 @@
 #include "shapespline/deviation.hpp"
 #include "shapespline/footpoint.hpp"
 #include "shapespline/mean_distance.hpp"
+#include "shapespline/near_feet.hpp"
 #include "shapespline/normal_equations.hpp"
 #include "shapespline/outline_search.hpp"
 #include "shapespline/removal_search.hpp"
@@ -47,6 +48,7 @@ using OutIndices = Array<std::int64_t, nb::ndim<1>>;
 using InIndices = Array<const std::int64_t, nb::ndim<1>>;
 
 std::span<const double> numbers(const In1 &a) { return {a.data(), a.shape(0)}; }
+std::span<double> numbers(const Out1 &a) { return {a.data(), a.shape(0)}; }
 std::span<const ss::Vec2> vectors(const In2 &a) {
     return {reinterpret_cast<const ss::Vec2 *>(a.data()), a.shape(0)};
 }
@@ -237,6 +239,42 @@ NB_MODULE(_kernels, m) {
         "held"_a, "control_ends_fixed"_a, "stray_weight"_a, "damping"_a,
         "control_step"_a.noconvert(), "parameter_step"_a.noconvert(),
         "along"_a.none().noconvert() = nb::none());
+
+    m.def(
+        "eliminated_equations",
+        [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
+           Out1 equations) {
+            nb::gil_scoped_release release;
+            ss::eliminated_equations(knot_vector(knots, degree, periodic), vectors(control_points),
+                               vectors(points), numbers(parameters), numbers(equations));
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
+        "points"_a.noconvert(), "parameters"_a.noconvert(), "equations"_a.noconvert());
+
+    m.def("eliminated_size", &ss::eliminated_size, "n_points"_a, "degree"_a, "periodic"_a);
+
+    m.def(
+        "eliminated_step",
+        [](int degree, bool periodic, In1 sums, double damping, bool ends_fixed,
+           OutPoints control_step) {
+            const auto r =
+                ss::eliminated_step(control_step.shape(0), degree, periodic, numbers(sums),
+                                    damping, ends_fixed, vectors(control_step));
+            return std::make_tuple(r.solved, r.cost - r.predicted_cost, r.gradient_norm);
+        },
+        "degree"_a, "periodic"_a, "sums"_a.noconvert(), "damping"_a, "ends_fixed"_a,
+        "control_step"_a.noconvert());
+
+    m.def(
+        "near_feet",
+        [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, int steps,
+           Out1 parameters) {
+            nb::gil_scoped_release release;
+            ss::near_feet(knot_vector(knots, degree, periodic), vectors(control_points),
+                          vectors(points), steps, numbers(parameters));
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
+        "points"_a.noconvert(), "steps"_a, "parameters"_a.noconvert());
 
     m.def(
         "mean_distances",

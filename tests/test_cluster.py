@@ -68,15 +68,16 @@ def test_a_killed_worker_loses_nothing(cluster):
         assert_array_equal(mine.control_points, theirs.control_points)
 
 
-def test_one_outline_whose_blocks_lie_on_the_cluster(cluster):
+@pytest.mark.parametrize("asked", [{"tolerance": 0.005}, {"n_control_points": 40}])
+def test_one_outline_whose_blocks_lie_on_the_cluster(cluster, asked):
     dask_array = pytest.importorskip("dask.array")
     t = 2 * np.pi * dask_array.arange(3_000_000, chunks=CHUNK) / 3_000_000
     r = 3 + dask_array.cos(5 * t)
     blocks = dask_array.stack([r * dask_array.cos(t), r * dask_array.sin(t)], axis=1)
-    alone = ss.fit_large(blocks.compute(), tolerance=0.005)
+    alone = ss.fit_large(blocks.compute(), **asked)
     with distributed.Client(cluster) as client:
         kill_one = KillOneWorker(client)
-        together = ss.fit_large(blocks, tolerance=0.005, progress=kill_one)
+        together = ss.fit_large(blocks, progress=kill_one, **asked)
         kill_one.check()
     assert together.kept
     assert_array_equal(together.control_points, alone.control_points)

@@ -39,7 +39,7 @@ TIERS = [
     },
     {"symmetry"},
     {"tolerance"},
-    {"large", "refitting"},
+    {"large", "large_squares", "refitting"},
     {"uncrossing", "weighting"},
     {"promise"},
     {"fitting"},

@@ -119,6 +119,33 @@ def damped_step(
     parameter_step: FloatArray,  # out (n,)
     along: FloatArray | None = None,  # (n,), parts of the residuals along the tangent that count
 ) -> tuple[bool, float, float, float]: ...  # solved, cost, predicted cost, gradient norm
+def near_feet(
+    knots: FloatArray,
+    degree: int,
+    periodic: bool,
+    control_points: FloatArray,
+    points: FloatArray,
+    steps: int,
+    parameters: FloatArray,  # in and out (n,)
+) -> None: ...
+def eliminated_equations(
+    knots: FloatArray,
+    degree: int,
+    periodic: bool,
+    control_points: FloatArray,
+    points: FloatArray,
+    parameters: FloatArray,
+    equations: FloatArray,  # out: the cost, the right side, the matrix; of chunks they add up
+) -> None: ...
+def eliminated_size(n_points: int, degree: int, periodic: bool) -> int: ...
+def eliminated_step(
+    degree: int,
+    periodic: bool,
+    sums: FloatArray,  # of the equations of all chunks
+    damping: float,
+    ends_fixed: bool,
+    control_step: FloatArray,  # out (m, 2)
+) -> tuple[bool, float, float]: ...  # solved, predicted decrease, gradient norm
 def corner_turns(
     points: FloatArray,  # (k, 2)
     stations: FloatArray,  # (k,), increasing

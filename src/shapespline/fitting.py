@@ -38,6 +38,7 @@ from shapespline.tolerance import (
     Ends,
     Form,
     Wanted,
+    check_size_alone,
     checked_corners,
     checked_held,
     fit_within,
@@ -217,15 +218,7 @@ def fit_curve(
     if tolerance is not None and n_control_points is not None:
         raise InvalidInputError("tolerance and n_control_points exclude each other: give one")
     if n_control_points is not None:
-        for name, value, default in (
-            ("corners", corners, "auto"),
-            ("form", form, "pieces"),
-            ("effort", effort, "balanced"),
-        ):
-            if not (isinstance(value, str) and value == default):
-                raise InvalidInputError(
-                    f"{name} does not act with n_control_points: leave one of them out"
-                )
+        check_size_alone(corners, form, effort)
     if tolerance is not None:
         length = tolerance_length(tolerance, contour)
         held = checked_held(contour, ends, end_tangents, through)

@@ -1,11 +1,12 @@
-"""fit_large: one outline of any number of points, in three passes over them.
+"""fit_large: one outline of any number of points, in a few passes over them.
 
-The first pass looks: bounds, ends, a sample for corners and noise. The second finds a polyline of
-few vertices that stands for all points, a small, proven distance away (stand_in.py). The search
-sees these vertices only, and keeps the tolerance less that distance, so that the promise holds for
-all points; the third pass measures every one of them against the curve. What a pass brings home
-from a chunk is a few numbers or vertices, so chunks may lie on disk or on the machines of a
-cluster.
+Within a tolerance there are three. The first looks: bounds, ends, a sample for corners and noise.
+The second finds a polyline of few vertices that stands for all points, a small, proven distance
+away (stand_in.py). The search sees these vertices only, and keeps the tolerance less that distance,
+so that the promise holds for all points; the third measures every one of them against the curve.
+With a number of control points some passes between sum up normal equations (large_squares.py).
+What a pass brings home from a chunk is a few numbers or vertices, so chunks may lie on disk or on
+the machines of a cluster.
 """
 
 from __future__ import annotations
@@ -19,32 +20,40 @@ from shapespline.arrays import is_number
 from shapespline.contour import Contour
 from shapespline.corners import GENTLE_TURN, find_corners
 from shapespline.distance import CentredCurve, Distances, reverse_distance, rounding
-from shapespline.drawing import Fit
+from shapespline.drawing import Fit, Status
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.frame import LONGEST_CHORD, WorkingFrame, canonical_reading, reversed_curve
 from shapespline.joining import backwards
-from shapespline.knots import check_degree
+from shapespline.knots import check_count, check_degree
 from shapespline.large_fit import FootParameters, LargeFit
+from shapespline.large_squares import MOST_PASSES, least_squares
 from shapespline.outline import SearchOutline
 from shapespline.passes import Measured, Passes
 from shapespline.point_stream import PointStream, TurnedRows
 from shapespline.progress import Watch
+from shapespline.solvers.iteration import Stop
 from shapespline.stand_in import StandIn
-from shapespline.tolerance import Wanted, fit_within, tolerance_length
-from shapespline.verification import status_of
+from shapespline.tolerance import Wanted, check_size_alone, fit_within, tolerance_length
+from shapespline.verification import status_of, verified_fit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from concurrent.futures import Executor
 
+    from shapespline.passes import Seen
     from shapespline.tolerance import Effort, Form
     from shapespline.typing import IntArray
+
+# Points that scatter around a curve scatter as far around their averages: a polyline that stands
+# for them may be twice as far as the farthest is from the curve, or this part of the box diagonal.
+NEAR_ENOUGH, FINEST = 2.0, 1e-9
 
 
 def fit_large(
     points: Any,
     *,
-    tolerance: float | str,
+    tolerance: float | str | None = None,
+    n_control_points: int | None = None,
     closed: bool | None = None,
     degree: int = 3,
     corners: Literal["auto", "free"] | None = "auto",
@@ -61,8 +70,11 @@ def fit_large(
     points : array-like, shape (n, 2)
         In order along the outline: an array, a file mapped by ``numpy.load(path,
         mmap_mode="r")``, a zarr or a dask array.
-    tolerance : float or str
+    tolerance : float or str, optional
         As `fit_curve` takes it; kept for every point, both ways.
+    n_control_points : int, optional
+        Instead of a tolerance: one spline by least squares over all points. An open one begins
+        and ends in the first and the last point.
     closed : bool, optional
         Whether the last point joins the first; when not given, whether the gap between them is no
         longer than the longest step.
@@ -73,8 +85,8 @@ def fit_large(
         dask array are worked on by dask's own scheduler, a cluster's if there is a client. The
         result has the same bits.
     progress : callable, optional
-        Called with the number of points looked at and to look at, over all passes; a true answer
-        ends the run with a ShapesplineError.
+        Called with the number of points looked at and to look at at most, over all passes; a true
+        answer ends the run with a ShapesplineError.
 
     Returns
     -------
@@ -93,6 +105,10 @@ def fit_large(
     data is that to the vertices' polyline and its distance. Points that begin elsewhere or run the
     other way may give another curve, as good a one.
 
+    Least squares begin with those of some 20 000 of the points. Each pass finds the feet of all of
+    them and sums the moments of every span; a chunk sends no more than these, whatever its size.
+    Most often 4 to 8 passes.
+
     Examples
     --------
     >>> t = np.linspace(0, 2 * np.pi, 600_000, endpoint=False)
@@ -100,8 +116,19 @@ def fit_large(
     >>> fit = fit_large(ellipse, tolerance=0.01)
     >>> fit.kept, fit.closed, fit.n_stored_points <= 8, fit.n_points
     (True, True, True, 600000)
+    >>> fit_large(ellipse, n_control_points=12).n_control_points
+    12
     """
     degree = check_degree(degree)
+    if (tolerance is None) == (n_control_points is None):
+        given = "both" if n_control_points is not None else "none"
+        raise InvalidInputError(
+            f"points are fitted within a tolerance or with n_control_points, got {given}: give one"
+        )
+    count = 0
+    if n_control_points is not None:
+        check_size_alone(corners, form, effort)
+        count = check_count(n_control_points, degree)
     if not (corners is None or corners in ("auto", "free")):
         raise InvalidInputError(f"corners must be 'auto', 'free' or None, got {corners!r}")
     for name, value, choices in (
@@ -110,11 +137,13 @@ def fit_large(
     ):
         if value not in choices:
             raise InvalidInputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
-    if not isinstance(tolerance, str) and not (is_number(tolerance) and 0 < tolerance < np.inf):
+    if not isinstance(tolerance, str | None) and not (
+        is_number(tolerance) and 0 < tolerance < np.inf
+    ):
         raise InvalidInputError(f"tolerance must be a positive length, got {tolerance!r}")
     watch = Watch(None, time_limit)
     stream = PointStream(points, executor)
-    passes = Passes(stream, progress, in_all=3)
+    passes = Passes(stream, progress, in_all=3 if n_control_points is None else 3 + MOST_PASSES)
 
     seen = passes.look()
     closed = seen.ends_meet if closed is None else bool(closed)
@@ -123,6 +152,8 @@ def fit_large(
             f"points must hold at least 2 distinct points, got 1 (of {stream.n_points} given)"
         )
     box = Contour.silently(np.array([seen.low, seen.high]), closed=False)
+    if tolerance is None:
+        return _of_size(passes, seen, closed, count, degree, watch)
     length = tolerance_length(tolerance, box)
     standing = StandIn.of(passes, seen, closed, length, LONGEST_CHORD * box.box_diagonal)
     sample = Contour.silently(seen.sample, closed)
@@ -133,6 +164,52 @@ def fit_large(
     named = {name: getattr(fit, name) for name in Fit.__dataclass_fields__}
     named |= _verified(found, length, watch)
     return LargeFit(**named, n_points=stream.n_points, feet=FootParameters(stream, curve))
+
+
+def _of_size(
+    passes: Passes, seen: Seen, closed: bool, count: int, degree: int, watch: Watch
+) -> LargeFit:
+    """Least squares, and the distances of all points."""
+    found = least_squares(passes, seen, closed, count, degree, watch)
+    spline, sample, n = found.spline, found.sample, passes.stream.n_points
+    curve = CentredCurve.of(spline, sample)
+    measured = passes.measure(curve)
+    standing = _standing(passes, seen, closed, float(np.sqrt(measured.largest)))
+    around = Contour.silently(standing.points, closed)
+    distances = Distances(
+        float(np.sqrt(measured.largest)) + rounding(spline, around),
+        float(np.sqrt(measured.total / n)),
+        reverse_distance(spline, around) + standing.off,
+        curve.nearest(sample.points).parameters,
+    )
+    fit = verified_fit(
+        sample,
+        spline,
+        tolerance=None,
+        method="levenberg-marquardt",
+        run=found.run,
+        history=found.history,
+        distances=distances,
+    )
+    named = {name: getattr(fit, name) for name in Fit.__dataclass_fields__}
+    figures = f"data to curve {fit.max_distance:.6g}, both ways {fit.hausdorff_distance:.6g}"
+    if watch.ended_as:
+        named["status"] = watch.verdict(Status.BUDGET.saying(figures))
+    elif found.run.stop is Stop.EVALUATIONS:
+        more = "the sum of squares still falls a little"
+        named["status"] = Status.BUDGET.saying(f"{MOST_PASSES} passes over: {figures}; {more}")
+    return LargeFit(**named, n_points=n, feet=FootParameters(passes.stream, curve))
+
+
+def _standing(passes: Passes, seen: Seen, closed: bool, farthest: float) -> StandIn:
+    """Vertices for points that lie so far from a curve at most: none need be nearer to them."""
+    diagonal = float(np.hypot(*(seen.high - seen.low)))
+    aim = max(NEAR_ENOUGH * farthest, FINEST * diagonal)
+    while True:
+        try:
+            return StandIn.of(passes, seen, closed, aim, LONGEST_CHORD * diagonal)
+        except InvalidInputError:  # too many would stay
+            aim *= 4.0
 
 
 def fit_all_in_passes(

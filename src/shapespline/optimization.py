@@ -141,20 +141,15 @@ def optimize(
     if tolerance is not None:
         limits = _stopping_at(limits, tolerance, problem, contour.closed)
     n = len(contour)
-
-    def iteration(record: IterationRecord) -> Iteration:
-        error = float(np.sqrt(2.0 * record.cost / max(n - 1, 1)))
-        return Iteration(record.iteration, record.cost, error, *_rest(record))
-
     first = spline.control_points - middle
     if ends == "interpolated":
         first[[0, -1]] = problem.points[[0, -1]]
     result = minimize(
         solver,
         problem,
-        problem.pack(first, _start_parameters(start, contour)),
+        problem.pack(first, parameters_in_order(start, contour)),
         limits=limits,
-        callback=None if callback is None else lambda record: callback(iteration(record)),
+        callback=None if callback is None else lambda record: callback(as_iteration(record, n)),
     )
     fitted = problem.curve(result.x)
     control_points = fitted.control_points + middle
@@ -167,7 +162,7 @@ def optimize(
         tolerance=tolerance,
         method=name,
         run=result,
-        history=tuple(iteration(record) for record in result.history),
+        history=tuple(as_iteration(record, n) for record in result.history),
     )
 
 
@@ -205,7 +200,7 @@ def given_weights(weights: ArrayLike, contour: Contour) -> FloatArray:
     return given
 
 
-def _start_parameters(start: Start, contour: Contour) -> FloatArray:
+def parameters_in_order(start: Start, contour: Contour) -> FloatArray:
     """The start's parameters, one per contour point, unwrapped and in data order."""
     parameters = start.parameters
     if len(parameters) == contour.n_given != len(contour):
@@ -237,5 +232,8 @@ def _stopping_at(limits: Limits, tolerance: float, problem: CurveProblem, closed
     return replace(limits, reached=reached)
 
 
-def _rest(record: IterationRecord) -> tuple[float, int, float, float]:
-    return record.gradient_norm, record.evaluations, record.step, record.seconds
+def as_iteration(record: IterationRecord, n: int) -> Iteration:
+    """What a caller hears of an iteration over n points."""
+    error = float(np.sqrt(2.0 * record.cost / max(n - 1, 1)))
+    rest = record.gradient_norm, record.evaluations, record.step, record.seconds
+    return Iteration(record.iteration, record.cost, error, *rest)

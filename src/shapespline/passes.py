@@ -93,6 +93,10 @@ class Passes:
         found = self.over_all(_measure, [(curve, feet, begin) for begin in begins])
         return Measured(max(m.largest for m in found), float(np.sum([m.total for m in found])))
 
+    def reach(self, n_passes: int) -> None:
+        """So many passes are over, or need not be made."""
+        self._done = n_passes * self.stream.n_points
+
     def over_all(
         self,
         function: Any,

@@ -225,27 +225,12 @@ class CurveProblem:
 
     def projected(self, x: FloatArray) -> FloatArray:
         """The vector with every parameter moved to a foot point near it; no residual grows."""
-        curve, moved = self.curve(x), x.copy()
-        parameters = moved[self._split :]
-        begin, end = self.template.domain
-        best = ((curve(parameters) - self.points) ** 2).sum(axis=1)
-        for _ in range(_FOOT_STEPS):
-            residuals = curve(parameters) - self.points
-            tangents = curve(parameters, derivative=1)
-            bends = curve(parameters, derivative=2)
-            speed_sq = (tangents**2).sum(axis=1)
-            newton = speed_sq + (residuals * bends).sum(axis=1)
-            hessian = np.where(newton > 0.3 * speed_sq, newton, speed_sq)
-            slope = (residuals * tangents).sum(axis=1)
-            step = np.divide(-slope, hessian, out=np.zeros_like(slope), where=hessian > 0)
-            trial = parameters + step
-            if not self.template.periodic:
-                trial = np.clip(trial, begin, end)
-            if self.ends != "free":
-                trial[0], trial[-1] = parameters[0], parameters[-1]
-            distances_sq = ((curve(trial) - self.points) ** 2).sum(axis=1)
-            nearer = distances_sq < best
-            parameters[nearer], best[nearer] = trial[nearer], distances_sq[nearer]
+        moved = x.copy()
+        control_points, parameters = self.unpack(moved)
+        ends = parameters[[0, -1]]
+        _kernels.near_feet(*self._knots, control_points, self.points, _FOOT_STEPS, parameters)
+        if self.ends != "free":
+            parameters[[0, -1]] = ends
         return moved
 
     def control_points_for(self, parameters: FloatArray, guess: FloatArray) -> FloatArray:

@@ -217,6 +217,19 @@ def _ended(fit: Fit, watch: Watch) -> Fit:
     return replace(fit, status=watch.verdict(fit.status), history=tuple(watch.history))
 
 
+def check_size_alone(corners: object, form: object, effort: object) -> None:
+    """Raise if something is said that only acts within a tolerance."""
+    for name, value, default in (
+        ("corners", corners, "auto"),
+        ("form", form, "pieces"),
+        ("effort", effort, "balanced"),
+    ):
+        if not (isinstance(value, str) and value == default):
+            raise InvalidInputError(
+                f"{name} does not act with n_control_points: leave one of them out"
+            )
+
+
 def checked_corners(
     corners: Literal["auto", "free"] | ArrayLike | None, n: int
 ) -> Literal["auto", "free"] | ArrayLike | None:

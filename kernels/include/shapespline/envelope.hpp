@@ -30,6 +30,9 @@ class EnvelopeMatrix {
         return values_[offset_[row] + column - first_[row]];
     }
 
+    // Row by row.
+    std::span<double> values() { return values_; }
+
     // Those of a matrix with the same envelope.
     void take_values(const EnvelopeMatrix &other) {
         std::copy(other.values_.begin(), other.values_.end(), values_.begin());

@@ -85,6 +85,91 @@ class LocalSystem {
     std::array<Vec2, Degree + 1> rhs_{};
 };
 
+// A x = b for the control points, and half the sum of squares of the residuals that it was made of.
+// What parts of the data make adds up.
+struct NormalEquations {
+    EnvelopeMatrix matrix;
+    std::vector<double> rhs;
+    double cost = 0.0;
+
+    NormalEquations(std::size_t n_points, int degree, bool periodic)
+        : matrix(normal_matrix(n_points, degree, periodic)), rhs(2 * n_points, 0.0) {}
+
+    // Adds the data, and 1 / h_j = inverse_h(j, tangent), zero where a parameter does not move.
+    template <class InverseH>
+    void add(const Knots &knots, std::span<const Vec2> unrolled, const Samples &samples,
+             InverseH &&inverse_h) {
+        dispatch_degree(knots.degree, [&]<int Degree>() {
+            constexpr bool kMoments = Degree <= kMomentDegree;
+            std::conditional_t<kMoments, SpanCursor<Degree>, CurveCursor<Degree>> cursor(knots,
+                                                                                         unrolled);
+            std::conditional_t<kMoments, LocalMoments<Degree>, LocalSystem<Degree>> local;
+            cursor.seek(samples.parameters[0]);
+            std::size_t first = cursor.first_index();
+            local.enter(cursor);
+            const auto follow = [&] {
+                if (cursor.first_index() == first) return;
+                local.flush(first, matrix, rhs);
+                first = cursor.first_index();
+                local.enter(cursor);
+            };
+            for (std::size_t j = 0; j < samples.size(); ++j) {
+                cursor.seek(samples.parameters[j]);
+                follow();
+                const Vec2 r = cursor.point() - samples.points[j];
+                const Vec2 t = cursor.tangent();
+                const double w = samples.weight(j);
+                local.add(cursor, r, t, w, inverse_h(j, t));
+                cost += 0.5 * w * norm_sq(r);
+            }
+            for_each_stray(knots, samples, [&](const Stray &stray) {
+                cursor.seek(stray.parameter);
+                follow();
+                const Vec2 r = cursor.point() - stray.target;
+                local.add(cursor, r, Vec2{}, stray.weight, 0.0);
+                cost += 0.5 * stray.weight * norm_sq(r);
+            });
+            local.flush(first, matrix, rhs);
+        });
+    }
+
+    // Adds damping times the diagonal, and 1e-11 of its largest entry.
+    void damp(double damping) {
+        const std::size_t n = matrix.size();
+        double largest = 0.0;
+        for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, matrix.at(i, i));
+        for (std::size_t i = 0; i < n; ++i)
+            matrix.at(i, i) += damping * (matrix.at(i, i) + 1e-11 * largest);
+    }
+
+    // The first and the last control point do not move.
+    void hold_ends() {
+        const std::size_t n = matrix.size();
+        for (const std::size_t fixed : {std::size_t{0}, std::size_t{1}, n - 2, n - 1}) {
+            for (std::size_t k = matrix.first_column(fixed); k < fixed; ++k)
+                matrix.at(fixed, k) = 0.0;
+            for (std::size_t i = fixed + 1; i < n; ++i)
+                if (matrix.first_column(i) <= fixed) matrix.at(i, fixed) = 0.0;
+            matrix.at(fixed, fixed) = 1.0;
+            rhs[fixed] = 0.0;
+        }
+    }
+};
+
+inline double norm_of(std::span<const double> x) {
+    double sum = 0.0;
+    for (const double value : x) sum += value * value;
+    return std::sqrt(sum);
+}
+
+// Squared speeds below this part of the largest are raised to it.
+inline double speed_floor(const Knots &knots, std::span<const Vec2> unrolled) {
+    double largest_sq = 0.0;
+    for (const Vec2 d : derivative_points(knots, unrolled))
+        largest_sq = std::max(largest_sq, norm_sq(d));
+    return 1e-12 * largest_sq;
+}
+
 struct StepResult {
     bool solved;
     double cost;
@@ -102,74 +187,24 @@ inline StepResult damped_step(const Knots &knots, std::span<const Vec2> control_
                               std::span<Vec2> control_step, double *parameter_step) {
     const std::size_t m = control_points.size();
     const std::vector<Vec2> unrolled = unroll(control_points, knots.n_coefficients());
-    EnvelopeMatrix matrix = normal_matrix(m, knots.degree, knots.periodic);
-    std::vector<double> rhs(2 * m, 0.0);
-    StepResult result{false, 0.0, 0.0, 0.0};
-
-    double largest_speed_sq = 0.0;
-    for (const Vec2 d : derivative_points(knots, unrolled))
-        largest_speed_sq = std::max(largest_speed_sq, norm_sq(d));
-    const double speed_floor = 1e-12 * largest_speed_sq;
-    // 1 / h_j, zero where the parameter does not move: fixed, or the curve stands still.
+    const double least_sq = speed_floor(knots, unrolled);
+    // Zero where the parameter does not move: fixed, or the curve stands still.
     const auto inverse_h = [&](std::size_t j, Vec2 tangent) {
         const double speed_sq = norm_sq(tangent);
         if (samples.is_held(j) || speed_sq == 0.0) return 0.0;
-        if (samples.along) return (1.0 - samples.along[j]) / std::max(speed_sq, speed_floor);
-        return 1.0 / (std::max(speed_sq, speed_floor) * (1.0 + damping));
+        if (samples.along) return (1.0 - samples.along[j]) / std::max(speed_sq, least_sq);
+        return 1.0 / (std::max(speed_sq, least_sq) * (1.0 + damping));
     };
-
-    dispatch_degree(knots.degree, [&]<int Degree>() {
-        constexpr bool kMoments = Degree <= kMomentDegree;
-        std::conditional_t<kMoments, SpanCursor<Degree>, CurveCursor<Degree>> cursor(knots,
-                                                                                     unrolled);
-        std::conditional_t<kMoments, LocalMoments<Degree>, LocalSystem<Degree>> local;
-        cursor.seek(samples.parameters[0]);
-        std::size_t first = cursor.first_index();
-        local.enter(cursor);
-        const auto follow = [&] {
-            if (cursor.first_index() == first) return;
-            local.flush(first, matrix, rhs);
-            first = cursor.first_index();
-            local.enter(cursor);
-        };
-        for (std::size_t j = 0; j < samples.size(); ++j) {
-            cursor.seek(samples.parameters[j]);
-            follow();
-            const Vec2 r = cursor.point() - samples.points[j];
-            const Vec2 t = cursor.tangent();
-            const double w = samples.weight(j);
-            local.add(cursor, r, t, w, inverse_h(j, t));
-            result.cost += 0.5 * w * norm_sq(r);
-        }
-        for_each_stray(knots, samples, [&](const Stray &stray) {
-            cursor.seek(stray.parameter);
-            follow();
-            const Vec2 r = cursor.point() - stray.target;
-            local.add(cursor, r, Vec2{}, stray.weight, 0.0);
-            result.cost += 0.5 * stray.weight * norm_sq(r);
-        });
-        local.flush(first, matrix, rhs);
-    });
-
-    double largest = 0.0;
-    for (std::size_t i = 0; i < 2 * m; ++i) largest = std::max(largest, matrix.at(i, i));
-    for (std::size_t i = 0; i < 2 * m; ++i)
-        matrix.at(i, i) += damping * (matrix.at(i, i) + 1e-11 * largest);
-    if (samples.control_ends_fixed) {
-        for (const std::size_t fixed : {std::size_t{0}, std::size_t{1}, 2 * m - 2, 2 * m - 1}) {
-            for (std::size_t k = matrix.first_column(fixed); k < fixed; ++k)
-                matrix.at(fixed, k) = 0.0;
-            for (std::size_t i = fixed + 1; i < 2 * m; ++i)
-                if (matrix.first_column(i) <= fixed) matrix.at(i, fixed) = 0.0;
-            matrix.at(fixed, fixed) = 1.0;
-            rhs[fixed] = 0.0;
-        }
-    }
-    for (const double g : rhs) result.gradient_norm += g * g;
-    result.gradient_norm = std::sqrt(result.gradient_norm);
-    if (!matrix.factorize()) return result;
+    NormalEquations equations(m, knots.degree, knots.periodic);
+    equations.add(knots, unrolled, samples, inverse_h);
+    StepResult result{false, equations.cost, 0.0, 0.0};
+    equations.damp(damping);
+    if (samples.control_ends_fixed) equations.hold_ends();
+    std::vector<double> &rhs = equations.rhs;
+    result.gradient_norm = norm_of(rhs);
+    if (!equations.matrix.factorize()) return result;
     result.solved = true;
-    matrix.solve(rhs);
+    equations.matrix.solve(rhs);
     for (std::size_t i = 0; i < m; ++i) control_step[i] = {rhs[2 * i], rhs[2 * i + 1]};
 
     std::vector<Vec2> moved = unroll(control_step, unrolled.size());
@@ -192,6 +227,62 @@ inline StepResult damped_step(const Knots &knots, std::span<const Vec2> control_
             result.predicted_cost += 0.5 * stray.weight * norm_sq(next.point() - stray.target);
         });
     });
+    return result;
+}
+
+// Of the way along the tangent so much counts as a residual: none would leave control points on
+// straight lines free to slide.
+inline constexpr double kAlongPart = 1e-3;
+
+// The normal equations with the parameters eliminated, written out: the cost, the right side, the
+// matrix in its envelope. A parameter at an end of an open curve does not move.
+inline void eliminated_equations(const Knots &knots, std::span<const Vec2> control_points,
+                           std::span<const Vec2> points, std::span<const double> parameters,
+                           std::span<double> out) {
+    const std::vector<Vec2> unrolled = unroll(control_points, knots.n_coefficients());
+    const double least_sq = speed_floor(knots, unrolled);
+    const auto inverse_h = [&](std::size_t j, Vec2 tangent) {
+        const bool at_end =
+            !knots.periodic && (parameters[j] <= knots.begin() || parameters[j] >= knots.end());
+        const double speed_sq = norm_sq(tangent);
+        if (at_end || speed_sq == 0.0) return 0.0;
+        return (1.0 - kAlongPart) / std::max(speed_sq, least_sq);
+    };
+    NormalEquations equations(control_points.size(), knots.degree, knots.periodic);
+    equations.add(knots, unrolled, Samples{points, parameters, nullptr}, inverse_h);
+    auto at = out.begin();
+    *at++ = equations.cost;
+    at = std::copy(equations.rhs.begin(), equations.rhs.end(), at);
+    std::copy(equations.matrix.values().begin(), equations.matrix.values().end(), at);
+}
+
+inline std::size_t eliminated_size(std::size_t n_points, int degree, bool periodic) {
+    return 1 + 2 * n_points + normal_matrix(n_points, degree, periodic).values().size();
+}
+
+// The step of the control points that sums of these ask for. The predicted cost is that of the
+// quadratic model, in which the parameters follow the points.
+inline StepResult eliminated_step(std::size_t n_points, int degree, bool periodic,
+                            std::span<const double> sums, double damping, bool ends_fixed,
+                            std::span<Vec2> control_step) {
+    const std::size_t n = 2 * n_points;
+    NormalEquations equations(n_points, degree, periodic);
+    EnvelopeMatrix &matrix = equations.matrix;
+    std::copy_n(sums.begin() + 1, n, equations.rhs.begin());
+    std::copy(sums.begin() + 1 + n, sums.end(), matrix.values().begin());
+    if (ends_fixed) equations.hold_ends();
+    std::vector<double> damped(n), x = equations.rhs;
+    for (std::size_t i = 0; i < n; ++i) damped[i] = -matrix.at(i, i);
+    equations.damp(damping);
+    for (std::size_t i = 0; i < n; ++i) damped[i] += matrix.at(i, i);
+    StepResult result{false, sums[0], sums[0], norm_of(x)};
+    if (!matrix.factorize()) return result;
+    result.solved = true;
+    matrix.solve(x);
+    // x' b - x' A x / 2 with (A + D) x = b.
+    for (std::size_t i = 0; i < n; ++i)
+        result.predicted_cost -= 0.5 * x[i] * (equations.rhs[i] + damped[i] * x[i]);
+    for (std::size_t i = 0; i < n_points; ++i) control_step[i] = {x[2 * i], x[2 * i + 1]};
     return result;
 }
 

@@ -16,7 +16,7 @@ namespace shapespline {
 
 inline constexpr int kMomentDegree = 5;
 
-// Point and first derivative of a curve at one parameter after another, nearly in order.
+// Point and derivatives of a curve at one parameter after another, nearly in order.
 template <int Degree>
 class SpanCursor {
   public:
@@ -33,6 +33,7 @@ class SpanCursor {
     const removal::SpanBasis<Degree> &basis() const { return basis_; }
     Vec2 point() const { return curve_.point(place_); }
     Vec2 tangent() const { return scale_ * curve_.tangent(place_); }
+    Vec2 bend() const { return scale_ * scale_ * curve_.second(place_); }
 
   private:
     void load(std::size_t k) {

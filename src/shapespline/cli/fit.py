@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 # Bytes of an array file from which on it is passed over, not read at once, where nothing is asked
 # that needs all points.
 LARGE_FILE = 32_000_000
-IN_PASSES = {"tolerance", "degree", "corners", "form", "effort", "ends", "time_limit"}
+WANTED = {"tolerance", "n_control_points"}
+IN_PASSES = WANTED | {"degree", "corners", "form", "effort", "ends", "time_limit"}
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ class FitFile:
         asked = {name for name, value in self.fitting.items() if value not in (None, False)}
         if self.plot is not None or self.fitting["ends"] != "free":
             return None
-        if not {"tolerance"} <= asked <= IN_PASSES:
+        if not (asked & WANTED and asked <= IN_PASSES):
             return None
         if source.suffix.lower() != ".npy" or source.stat().st_size < LARGE_FILE:
             return None

@@ -1,0 +1,227 @@
+"""Least squares over all points of a stream."""
+
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from benchmarks.outside_metric import two_sided
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.spatial import cKDTree
+
+import shapespline as ss
+from shapespline import _kernels
+from shapespline.contour import Contour
+from shapespline.footpoint import nearest
+from shapespline.large_squares import MOST_PASSES
+from shapespline.point_stream import CHUNK
+
+N = 2 * CHUNK + 12_345
+ALONG_PART = 1e-3  # of the way along the tangent, the kernel's
+
+
+def wave(n, noise=0.0, seed=0):
+    """An open curve, 20 wide."""
+    x = np.linspace(0, 20, n)
+    points = np.column_stack([x, np.sin(x) + 0.3 * np.sin(3.1 * x)])
+    return points + np.random.default_rng(seed).normal(0, noise, points.shape) if noise else points
+
+
+def ring(n, noise=0.0, seed=0):
+    t = 2 * np.pi * np.arange(n) / n
+    r = 10 + 1.5 * np.sin(5 * t) + 0.5 * np.sin(11 * t)
+    points = np.column_stack([r * np.cos(t), r * np.sin(t)])
+    return points + np.random.default_rng(seed).normal(0, noise, points.shape) if noise else points
+
+
+def off(fit, truth):
+    """Root mean square of the distances from places of the true curve."""
+    return float(np.sqrt(nearest(fit.spline, truth).distances_sq.mean()))
+
+
+@pytest.mark.parametrize("degree", [1, 3, 7])
+@pytest.mark.parametrize("periodic", [True, False])
+def test_the_step_is_that_of_the_dense_equations(degree, periodic):
+    random = np.random.default_rng(degree)
+    m, n, damping = 12, 90, 0.3
+    knots = ss.knots.periodic_knots(m, degree) if periodic else ss.knots.clamped_knots(m, degree)
+    angle = 2 * np.pi * np.arange(m) / m
+    control_points = np.column_stack([3 * np.cos(angle), np.sin(angle)])
+    control_points += random.normal(0, 0.05, (m, 2))
+    curve = ss.BSplineCurve(knots, control_points, degree, periodic)
+    parameters = np.linspace(0, 1, n, endpoint=not periodic)
+    points = curve(parameters) + random.normal(0, 0.1, (n, 2))
+    shape = np.column_stack(
+        [
+            ss.BSplineCurve(knots, np.column_stack([unit, unit]), degree, periodic)(parameters)[
+                :, 0
+            ]
+            for unit in np.eye(m)
+        ]
+    )
+    tangents = curve(parameters, derivative=1)
+    matrix, right = np.zeros((2 * m, 2 * m)), np.zeros(2 * m)
+    for j in range(n):
+        t = tangents[j] / np.hypot(*tangents[j])
+        moves = periodic or 0 < j < n - 1
+        across = np.eye(2) - (1 - ALONG_PART) * moves * np.outer(t, t)
+        matrix += np.kron(np.outer(shape[j], shape[j]), across)
+        right -= np.kron(shape[j], across @ (curve(parameters[j : j + 1])[0] - points[j]))
+    free = np.arange(2 * m) if periodic else np.arange(2, 2 * m - 2)
+    damped = matrix[np.ix_(free, free)]
+    if not periodic:  # the diagonal that damps includes the ones of what is held
+        matrix[[0, 1, -2, -1]] = matrix[:, [0, 1, -2, -1]] = 0.0
+        matrix[[0, 1, -2, -1], [0, 1, -2, -1]] = 1.0
+    diagonal = matrix.diagonal()[free]
+    damped = damped + damping * np.diag(diagonal + 1e-11 * matrix.diagonal().max())
+    expected = np.zeros(2 * m)
+    expected[free] = np.linalg.solve(damped, right[free])
+
+    form, size = (degree, periodic), _kernels.eliminated_size(m, degree, periodic)
+    parts = []
+    for part in (slice(0, 40), slice(40, n)):  # what chunks say adds up
+        parts.append(np.empty(size))
+        _kernels.eliminated_equations(
+            knots, *form, control_points, points[part], parameters[part], parts[-1]
+        )
+    step = np.empty((m, 2))
+    solved, decrease, norm = _kernels.eliminated_step(
+        *form, parts[0] + parts[1], damping, not periodic, step
+    )
+    assert solved
+    # Backward stable: what rounding of the entries (4e-12 at degree 7) makes of the solution.
+    rounding = np.linalg.cond(damped) * 1e-11 * np.abs(expected).max()
+    assert_allclose(step.ravel(), expected, rtol=0, atol=rounding)
+    x, b = expected[free], right[free]
+    model = b @ x - 0.5 * x @ matrix[np.ix_(free, free)] @ x
+    assert decrease == pytest.approx(model, rel=1e-6)
+    assert norm == pytest.approx(np.linalg.norm(b), rel=1e-9)
+    cost = 0.5 * ((curve(parameters) - points) ** 2).sum()
+    assert parts[0][0] + parts[1][0] == pytest.approx(cost, rel=1e-12)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_near_feet_lead_nearer_and_square_to_the_curve(closed):
+    fit = ss.fit_curve(ring(400) if closed else wave(400), n_control_points=30, closed=closed)
+    spline = fit.spline
+    points = (ring if closed else wave)(3000, 0.05)
+    begin = np.linspace(0, 1, 3000, endpoint=not closed)
+    parameters = begin.copy()
+    _kernels.near_feet(
+        spline.knots, spline.degree, closed, spline.control_points, points, 8, parameters
+    )
+    away, before = (np.hypot(*(spline(u) - points).T) for u in (parameters, begin))
+    assert (away <= before).all()
+    inside = np.ones(3000, dtype=bool) if closed else (parameters > 0) & (parameters < 1)
+    tangents = spline(parameters, derivative=1)
+    along = ((spline(parameters) - points) * tangents).sum(axis=1) / np.hypot(*tangents.T)
+    # Of a curve 20 wide, after eight squarings; a step that overshoots is the last of its point.
+    assert (np.abs(along[inside]) < 1e-6).mean() > 0.98
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_all_points_tell_more_than_a_sample(closed):
+    points, truth = ((ring if closed else wave)(n, noise) for n, noise in ((N, 0.1), (20_000, 0)))
+    fit = ss.fit_large(points, n_control_points=60)
+    sample = ss.fit_curve(points[:: -(-N // 20_000)], n_control_points=60, closed=closed)
+    assert fit.closed == closed
+    # 14 times as many points: 3.7 times nearer, were it for the noise alone.
+    assert off(fit, truth) < 0.5 * off(sample, truth)
+    assert fit.rms_distance == pytest.approx(0.1, rel=0.01)
+    # It does not wind about in the band of the points to be near to each of them.
+    curve = fit.curve(np.linspace(0, 1, 20_000))
+    if not closed:  # the ends are those of noisy points
+        curve = curve[(curve[:, 0] > 0.5) & (curve[:, 0] < 19.5)]
+    assert cKDTree(truth).query(curve)[0].max() < 0.05
+    # Certified for all of them, of which these are some.
+    some = two_sided(fit.curve, points[::99], closed=closed, step=0.02)
+    assert some.forward <= fit.max_distance * (1 + 1e-9)
+    assert fit.max_distance <= fit.hausdorff_distance == fit.tolerance < 1.0
+
+
+def test_clean_points_are_fitted_as_a_sample_of_them():
+    fit = ss.fit_large(ring(N), n_control_points=40)
+    sample = ss.fit_curve(ring(5000), n_control_points=40, closed=True)
+    assert fit.n_control_points == 40
+    assert fit.rms_distance == pytest.approx(sample.rms_distance, rel=0.01)
+    assert fit.status == ss.Status.KEPT
+    assert fit.n_points == N == len(fit.feet)
+
+
+def test_open_ends_are_the_first_and_last_point():
+    points = wave(N, 0.01)
+    fit = ss.fit_large(points, n_control_points=50)
+    assert_array_equal(fit.control_points[[0, -1]], points[[0, -1]])
+
+
+def test_a_first_point_repeated_as_the_last_changes_nothing():
+    points = ring(19_999)  # every point is one of the sample
+    fit = ss.fit_large(points, n_control_points=40, closed=True)
+    again = ss.fit_large(np.concatenate([points, points[:1]]), n_control_points=40, closed=True)
+    assert_allclose(again.control_points, fit.control_points, rtol=0, atol=1e-3)
+    assert again.max_distance == pytest.approx(fit.max_distance, rel=0.01)
+
+
+def test_threads_and_blocks_give_the_same_bits(tmp_path):
+    points = ring(N, 0.05).astype(np.float32)
+    np.save(tmp_path / "points.npy", points)
+    alone = ss.fit_large(points, n_control_points=40)
+    with ThreadPoolExecutor(3) as pool:
+        others = [ss.fit_large(points, n_control_points=40, executor=pool)]
+    mapped = np.load(tmp_path / "points.npy", mmap_mode="r")
+    others.append(ss.fit_large(mapped, n_control_points=40))
+    for other in others:
+        assert_array_equal(other.control_points, alone.control_points)
+        assert other.hausdorff_distance == alone.hausdorff_distance
+
+
+def test_progress_cancelling_and_time():
+    points, seen = ring(N), []
+    ss.fit_large(points, n_control_points=20, progress=lambda *done: seen.append(done))
+    assert {total for _, total in seen} == {(3 + MOST_PASSES) * N}
+    assert seen[-1][0] == seen[-1][1]
+    assert seen == sorted(seen)
+    with pytest.raises(ss.ShapesplineError, match=f"cancelled by the callback after {N + CHUNK}"):
+        ss.fit_large(points, n_control_points=20, progress=lambda done, total: done > N)
+    hurried = ss.fit_large(points, n_control_points=20, time_limit=1e-3)
+    assert hurried.status == ss.Status.BUDGET
+    assert "the time limit of 0.001 s ran out" in hurried.status.value
+
+
+def test_noise_of_which_no_polyline_of_few_vertices_keeps_near():
+    points = ring(N, 0.5)
+    fit = ss.fit_large(points, n_control_points=20)
+    assert fit.max_distance <= fit.hausdorff_distance < 3 * fit.max_distance
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({}, "within a tolerance or with n_control_points, got none: give one"),
+        ({"tolerance": 1.0, "n_control_points": 9}, "got both: give one"),
+        ({"n_control_points": 3}, r"n_control_points must be at least degree \+ 1 = 4, got 3"),
+        ({"n_control_points": 2.5}, "n_control_points must be an integer, got 2.5"),
+        ({"n_control_points": 500}, "n_control_points must be at most 400, .* got 500"),
+        ({"n_control_points": 9, "corners": "free"}, "corners does not act with n_control_points"),
+        ({"n_control_points": 9, "effort": "fast"}, "effort does not act with n_control_points"),
+    ],
+)
+def test_bad_arguments(options, message):
+    with pytest.raises(ss.ShapesplineError, match=message):
+        ss.fit_large(ring(400), closed=True, **options)
+
+
+@pytest.mark.slow
+def test_the_command_line_fits_a_large_file_in_passes(tmp_path):
+    path, target = tmp_path / "ring.npy", tmp_path / "ring.json"
+    np.save(path, ring(2_100_000, 0.05))
+    command = [sys.executable, "-m", "shapespline", "fit", str(path), "-n", "40", "-o", str(target)]
+    subprocess.run(command, check=True, capture_output=True)
+    (fit,) = ss.read(target)
+    assert fit.n_control_points == 40
+    assert_array_equal(
+        fit.control_points, ss.fit_large(ring(2_100_000, 0.05), n_control_points=40).control_points
+    )
+    assert isinstance(fit.contour, Contour)
+    assert len(fit.contour) < 30_000
