@@ -140,6 +140,7 @@ def test_all_points_tell_more_than_a_sample(closed):
     assert fit.max_distance <= fit.hausdorff_distance == fit.tolerance < 1.0
 
 
+@pytest.mark.slow
 def test_clean_points_are_fitted_as_a_sample_of_them():
     fit = ss.fit_large(ring(N), n_control_points=40)
     sample = ss.fit_curve(ring(5000), n_control_points=40, closed=True)
@@ -149,12 +150,14 @@ def test_clean_points_are_fitted_as_a_sample_of_them():
     assert fit.n_points == N == len(fit.feet)
 
 
+@pytest.mark.slow
 def test_open_ends_are_the_first_and_last_point():
     points = wave(N, 0.01)
     fit = ss.fit_large(points, n_control_points=50)
     assert_array_equal(fit.control_points[[0, -1]], points[[0, -1]])
 
 
+@pytest.mark.slow
 def test_a_first_point_repeated_as_the_last_changes_nothing():
     points = ring(19_999)  # every point is one of the sample
     fit = ss.fit_large(points, n_control_points=40, closed=True)
@@ -163,6 +166,7 @@ def test_a_first_point_repeated_as_the_last_changes_nothing():
     assert again.max_distance == pytest.approx(fit.max_distance, rel=0.01)
 
 
+@pytest.mark.slow
 def test_threads_and_blocks_give_the_same_bits(tmp_path):
     points = ring(N, 0.05).astype(np.float32)
     np.save(tmp_path / "points.npy", points)
@@ -189,6 +193,7 @@ def test_progress_cancelling_and_time():
     assert "the time limit of 0.001 s ran out" in hurried.status.value
 
 
+@pytest.mark.slow
 def test_noise_of_which_no_polyline_of_few_vertices_keeps_near():
     points = ring(N, 0.5)
     fit = ss.fit_large(points, n_control_points=20)
