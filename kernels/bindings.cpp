@@ -3,17 +3,16 @@
 // Callers validate and allocate; every array is C-contiguous float64 or int64 as declared in
 // _kernels.pyi, and outputs are written in place.
 #include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include <cstdint>
 #include <optional>
 #include <tuple>
 
+#include "bindings.hpp"
 #include "shapespline/bezier.hpp"
 #include "shapespline/bspline.hpp"
 #include "shapespline/chords.hpp"
@@ -30,40 +29,10 @@
 #include "shapespline/section_squares.hpp"
 #include "shapespline/thinning.hpp"
 
-namespace nb = nanobind;
 using namespace nb::literals;
-namespace ss = shapespline;
 using Removal = ss::removal::RemovalSearch;
 
 namespace {
-
-template <class T, class... Extra>
-using Array = nb::ndarray<T, nb::device::cpu, nb::c_contig, Extra...>;
-using In1 = Array<const double, nb::ndim<1>>;
-using In2 = Array<const double, nb::shape<-1, 2>>;
-using Out1 = Array<double, nb::ndim<1>>;
-using Out2 = Array<double, nb::ndim<2>>;
-using OutPoints = Array<double, nb::shape<-1, 2>>;
-using OutIndices = Array<std::int64_t, nb::ndim<1>>;
-using InIndices = Array<const std::int64_t, nb::ndim<1>>;
-
-std::span<const double> numbers(const In1 &a) { return {a.data(), a.shape(0)}; }
-std::span<double> numbers(const Out1 &a) { return {a.data(), a.shape(0)}; }
-std::span<const ss::Vec2> vectors(const In2 &a) {
-    return {reinterpret_cast<const ss::Vec2 *>(a.data()), a.shape(0)};
-}
-std::span<ss::Vec2> vectors(const OutPoints &a) {
-    return {reinterpret_cast<ss::Vec2 *>(a.data()), a.shape(0)};
-}
-std::span<const std::int64_t> indices(const InIndices &a) { return {a.data(), a.shape(0)}; }
-ss::Knots knot_vector(const In1 &knots, int degree, bool periodic) {
-    return {numbers(knots), degree, periodic};
-}
-ss::Samples samples(const In2 &points, const In1 &parameters, const std::optional<In1> &weights,
-                    int held = 0, bool control_ends_fixed = false, double stray_weight = 0.0) {
-    return {vectors(points), numbers(parameters), weights ? weights->data() : nullptr,
-            static_cast<ss::Held>(held), control_ends_fixed, stray_weight};
-}
 
 // The caller's question, and its Ctrl-C; called while the GIL is released.
 ss::Interruption interruption(const nb::object &ask) {
@@ -245,8 +214,9 @@ NB_MODULE(_kernels, m) {
         [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
            Out1 equations) {
             nb::gil_scoped_release release;
-            ss::eliminated_equations(knot_vector(knots, degree, periodic), vectors(control_points),
-                               vectors(points), numbers(parameters), numbers(equations));
+            ss::eliminated_equations(knot_vector(knots, degree, periodic),
+                                     vectors(control_points), vectors(points),
+                                     numbers(parameters), numbers(equations));
         },
         "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
         "points"_a.noconvert(), "parameters"_a.noconvert(), "equations"_a.noconvert());

@@ -133,7 +133,7 @@ struct NormalEquations {
         });
     }
 
-    // Adds damping times the diagonal, and 1e-11 of its largest entry.
+    // Adds damping times the diagonal, each entry with 1e-11 of the largest.
     void damp(double damping) {
         const std::size_t n = matrix.size();
         double largest = 0.0;
@@ -237,8 +237,8 @@ inline constexpr double kAlongPart = 1e-3;
 // The normal equations with the parameters eliminated, written out: the cost, the right side, the
 // matrix in its envelope. A parameter at an end of an open curve does not move.
 inline void eliminated_equations(const Knots &knots, std::span<const Vec2> control_points,
-                           std::span<const Vec2> points, std::span<const double> parameters,
-                           std::span<double> out) {
+                                 std::span<const Vec2> points,
+                                 std::span<const double> parameters, std::span<double> out) {
     const std::vector<Vec2> unrolled = unroll(control_points, knots.n_coefficients());
     const double least_sq = speed_floor(knots, unrolled);
     const auto inverse_h = [&](std::size_t j, Vec2 tangent) {
@@ -263,8 +263,8 @@ inline std::size_t eliminated_size(std::size_t n_points, int degree, bool period
 // The step of the control points that sums of these ask for. The predicted cost is that of the
 // quadratic model, in which the parameters follow the points.
 inline StepResult eliminated_step(std::size_t n_points, int degree, bool periodic,
-                            std::span<const double> sums, double damping, bool ends_fixed,
-                            std::span<Vec2> control_step) {
+                                  std::span<const double> sums, double damping, bool ends_fixed,
+                                  std::span<Vec2> control_step) {
     const std::size_t n = 2 * n_points;
     NormalEquations equations(n_points, degree, periodic);
     EnvelopeMatrix &matrix = equations.matrix;
