@@ -225,14 +225,12 @@ NB_MODULE(_kernels, m) {
 
     m.def(
         "eliminated_step",
-        [](int degree, bool periodic, In1 sums, double damping, bool ends_fixed,
-           OutPoints control_step) {
-            const auto r =
-                ss::eliminated_step(control_step.shape(0), degree, periodic, numbers(sums),
-                                    damping, ends_fixed, vectors(control_step));
+        [](int degree, bool periodic, In1 sums, double damping, OutPoints control_step) {
+            const auto r = ss::eliminated_step(control_step.shape(0), degree, periodic,
+                                               numbers(sums), damping, vectors(control_step));
             return std::make_tuple(r.solved, r.cost - r.predicted_cost, r.gradient_norm);
         },
-        "degree"_a, "periodic"_a, "sums"_a.noconvert(), "damping"_a, "ends_fixed"_a,
+        "degree"_a, "periodic"_a, "sums"_a.noconvert(), "damping"_a,
         "control_step"_a.noconvert());
 
     m.def(

@@ -68,15 +68,8 @@ def test_the_step_is_that_of_the_dense_equations(degree, periodic):
         across = np.eye(2) - (1 - ALONG_PART) * moves * np.outer(t, t)
         matrix += np.kron(np.outer(shape[j], shape[j]), across)
         right -= np.kron(shape[j], across @ (curve(parameters[j : j + 1])[0] - points[j]))
-    free = np.arange(2 * m) if periodic else np.arange(2, 2 * m - 2)
-    damped = matrix[np.ix_(free, free)]
-    if not periodic:  # the diagonal that damps includes the ones of what is held
-        matrix[[0, 1, -2, -1]] = matrix[:, [0, 1, -2, -1]] = 0.0
-        matrix[[0, 1, -2, -1], [0, 1, -2, -1]] = 1.0
-    diagonal = matrix.diagonal()[free]
-    damped = damped + damping * np.diag(diagonal + 1e-11 * matrix.diagonal().max())
-    expected = np.zeros(2 * m)
-    expected[free] = np.linalg.solve(damped, right[free])
+    damped = matrix + damping * np.diag(matrix.diagonal() + 1e-11 * matrix.diagonal().max())
+    expected = np.linalg.solve(damped, right)
 
     form, size = (degree, periodic), _kernels.eliminated_size(m, degree, periodic)
     parts = []
@@ -86,17 +79,14 @@ def test_the_step_is_that_of_the_dense_equations(degree, periodic):
             knots, *form, control_points, points[part], parameters[part], parts[-1]
         )
     step = np.empty((m, 2))
-    solved, decrease, norm = _kernels.eliminated_step(
-        *form, parts[0] + parts[1], damping, not periodic, step
-    )
+    solved, decrease, norm = _kernels.eliminated_step(*form, parts[0] + parts[1], damping, step)
     assert solved
     # Backward stable: what rounding of the entries (4e-12 at degree 7) makes of the solution.
     rounding = np.linalg.cond(damped) * 1e-11 * np.abs(expected).max()
     assert_allclose(step.ravel(), expected, rtol=0, atol=rounding)
-    x, b = expected[free], right[free]
-    model = b @ x - 0.5 * x @ matrix[np.ix_(free, free)] @ x
+    model = right @ expected - 0.5 * expected @ matrix @ expected
     assert decrease == pytest.approx(model, rel=1e-6)
-    assert norm == pytest.approx(np.linalg.norm(b), rel=1e-9)
+    assert norm == pytest.approx(np.linalg.norm(right), rel=1e-9)
     cost = 0.5 * ((curve(parameters) - points) ** 2).sum()
     assert parts[0][0] + parts[1][0] == pytest.approx(cost, rel=1e-12)
 
@@ -131,8 +121,6 @@ def test_all_points_tell_more_than_a_sample(closed):
     assert fit.rms_distance == pytest.approx(0.1, rel=0.01)
     # It does not wind about in the band of the points to be near to each of them.
     curve = fit.curve(np.linspace(0, 1, 20_000))
-    if not closed:  # the ends are those of noisy points
-        curve = curve[(curve[:, 0] > 0.5) & (curve[:, 0] < 19.5)]
     assert cKDTree(truth).query(curve)[0].max() < 0.05
     # Certified for all of them, of which these are some.
     some = two_sided(fit.curve, points[::99], closed=closed, step=0.02)
@@ -151,10 +139,12 @@ def test_clean_points_are_fitted_as_a_sample_of_them():
 
 
 @pytest.mark.slow
-def test_open_ends_are_the_first_and_last_point():
-    points = wave(N, 0.01)
-    fit = ss.fit_large(points, n_control_points=50)
-    assert_array_equal(fit.control_points[[0, -1]], points[[0, -1]])
+def test_open_ends_do_not_turn_back_to_noisy_points():
+    fit = ss.fit_large(wave(N, 0.1), n_control_points=50)
+    begin, _, end = fit.curve([0.0, 0.5, 1.0])
+    # The first and the last point miss these by 0.1 as a rule, and hundreds lie beyond.
+    assert_allclose([begin[0], end[0]], [0, 20], rtol=0, atol=0.3)
+    assert (np.diff(fit.curve(np.linspace(0, 1, 20_000))[:, 0]) > 0).all()
 
 
 @pytest.mark.slow

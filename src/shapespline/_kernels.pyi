@@ -143,7 +143,6 @@ def eliminated_step(
     periodic: bool,
     sums: FloatArray,  # of the equations of all chunks
     damping: float,
-    ends_fixed: bool,
     control_step: FloatArray,  # out (m, 2)
 ) -> tuple[bool, float, float]: ...  # solved, predicted decrease, gradient norm
 def corner_turns(

@@ -73,8 +73,8 @@ def fit_large(
     tolerance : float or str, optional
         As `fit_curve` takes it; kept for every point, both ways.
     n_control_points : int, optional
-        Instead of a tolerance: one spline by least squares over all points. An open one begins
-        and ends in the first and the last point.
+        Instead of a tolerance: one spline by least squares over all points, its ends fitted like
+        the rest.
     closed : bool, optional
         Whether the last point joins the first; when not given, whether the gap between them is no
         longer than the longest step.

@@ -126,7 +126,6 @@ class StreamProblem:
             template.periodic,
             self._summed(x),
             damping,
-            not template.periodic,
             step.reshape(-1, 2),
         )
         return Proposal(x + step, decrease, gradient_norm) if solved else None
@@ -181,9 +180,12 @@ def least_squares(
             f"n_control_points must be at most {len(sample)}, the number of points that the start"
             f" is made from, got {count}; lower it"
         )
+    # An open curve that is held at noisy ends turns back on itself there.
+    fitted = "free" if closed else "fitted"
     start = optimize(
         sample,
-        balanced_start(sample, count, degree),
+        balanced_start(sample, count, degree, ends="fitted"),
+        ends=fitted,
         stray_weight=STRAY_WEIGHT,
         callback=watch.iterated,
     )
@@ -200,8 +202,6 @@ def least_squares(
     passes.reach(1 + MOST_PASSES)
     moved = problem.curve(run.x).moved
     points = moved.control_points + middle
-    if not closed:  # to the bit, in spite of the way to the middle and back
-        points[[0, -1]] = sample.points[[0, -1]]
     spline = BSplineCurve(moved.knots, points, degree, moved.periodic)
     history = tuple(as_iteration(record, n) for record in run.history)
     return SquaresFit(spline, sample, run, history)

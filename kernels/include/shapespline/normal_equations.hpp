@@ -263,14 +263,13 @@ inline std::size_t eliminated_size(std::size_t n_points, int degree, bool period
 // The step of the control points that sums of these ask for. The predicted cost is that of the
 // quadratic model, in which the parameters follow the points.
 inline StepResult eliminated_step(std::size_t n_points, int degree, bool periodic,
-                                  std::span<const double> sums, double damping, bool ends_fixed,
+                                  std::span<const double> sums, double damping,
                                   std::span<Vec2> control_step) {
     const std::size_t n = 2 * n_points;
     NormalEquations equations(n_points, degree, periodic);
     EnvelopeMatrix &matrix = equations.matrix;
     std::copy_n(sums.begin() + 1, n, equations.rhs.begin());
     std::copy(sums.begin() + 1 + n, sums.end(), matrix.values().begin());
-    if (ends_fixed) equations.hold_ends();
     std::vector<double> damped(n), x = equations.rhs;
     for (std::size_t i = 0; i < n; ++i) damped[i] = -matrix.at(i, i);
     equations.damp(damping);
