@@ -160,6 +160,7 @@ class KnotRemoval {
     static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
     static constexpr double kThinning = 0.025, kBendPart = 5.0;  // of the tolerance
     static constexpr int kSearchPoints = 150;  // at least; see docs/decisions.md
+    static constexpr std::size_t kManyBends = 40;
     static constexpr int kInVain = 12;  // failures in a row that make others unlikely
     static constexpr int kMedianAge = 256;  // control points for one removal that it may be old
     static constexpr double kTryStale = 0.97;
@@ -191,7 +192,7 @@ class KnotRemoval {
         if (settings_.start != 0) return {};
         const double distance = kBendPart * settings_.tolerance;
         const std::vector<int> bends = chord_vertices(search_, distance, search_.total);
-        return {bends.size() > 37 ? bends : even(24), even(37), even(56)};
+        return {bends.size() > kManyBends ? bends : even(24), even(37), even(56)};
     }
     bool start_keeps_rule() const {
         return slowest_ >= settings_.rule.speed_ratio && n_crossings_ <= n_data_crossings_;
