@@ -101,3 +101,20 @@ def test_certified_distance_from_curve_to_data(timed, subject):
         8,
     )
     assert lower <= upper <= TOLERANCE
+
+
+def test_normal_equations(timed, subject):
+    spline, points, parameters = subject.fit.spline, subject.points, subject.fit.parameters
+    form = spline.degree, spline.periodic
+    sums = np.empty(_kernels.eliminated_size(spline.n_control_points, *form))
+    # Point and tangent 22, weights and pull 25, six powers, 21 + 8 moments at 2 each, the cost 4.
+    timed(
+        "normal equations",
+        lambda: _kernels.eliminated_equations(
+            spline.knots, *form, spline.control_points, points, parameters, sums
+        ),
+        24,
+        115,
+    )
+    cost = 0.5 * float(((spline(parameters) - points) ** 2).sum())
+    assert sums[0] == pytest.approx(cost, rel=1e-9)
