@@ -111,7 +111,7 @@ def test_normal_equations(timed, subject):
     timed(
         "normal equations",
         lambda: _kernels.eliminated_equations(
-            spline.knots, *form, spline.control_points, points, parameters, sums
+            spline.knots, *form, spline.control_points, points, parameters, None, 0.0, sums
         ),
         24,
         115,

@@ -212,14 +212,15 @@ NB_MODULE(_kernels, m) {
     m.def(
         "eliminated_equations",
         [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, In1 parameters,
-           Out1 equations) {
+           std::optional<In1> weights, double stray_weight, Out1 equations) {
             nb::gil_scoped_release release;
-            ss::eliminated_equations(knot_vector(knots, degree, periodic),
-                                     vectors(control_points), vectors(points),
-                                     numbers(parameters), numbers(equations));
+            ss::eliminated_equations(
+                knot_vector(knots, degree, periodic), vectors(control_points),
+                samples(points, parameters, weights, 0, false, stray_weight), numbers(equations));
         },
         "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
-        "points"_a.noconvert(), "parameters"_a.noconvert(), "equations"_a.noconvert());
+        "points"_a.noconvert(), "parameters"_a.noconvert(), "weights"_a.none().noconvert(),
+        "stray_weight"_a, "equations"_a.noconvert());
 
     m.def("eliminated_size", &ss::eliminated_size, "n_points"_a, "degree"_a, "periodic"_a);
 

@@ -187,6 +187,8 @@ def test_a_chunk_is_read_as_it_is():
     stream = PointStream(points)
     assert_array_equal(stream.read(2, 5), points[2:5])
     assert stream.begins == [0, 10]
+    assert not stream.read(2, 5).flags.writeable  # a view of what is the caller's
+    assert points.flags.writeable
 
 
 def polyline_distance(points, polyline):

@@ -76,7 +76,7 @@ def test_the_step_is_that_of_the_dense_equations(degree, periodic):
     for part in (slice(0, 40), slice(40, n)):  # what chunks say adds up
         parts.append(np.empty(size))
         _kernels.eliminated_equations(
-            knots, *form, control_points, points[part], parameters[part], parts[-1]
+            knots, *form, control_points, points[part], parameters[part], None, 0.0, parts[-1]
         )
     step = np.empty((m, 2))
     solved, decrease, norm = _kernels.eliminated_step(*form, parts[0] + parts[1], damping, step)
@@ -126,6 +126,14 @@ def test_all_points_tell_more_than_a_sample(closed):
     some = two_sided(fit.curve, points[::99], closed=closed, step=0.02)
     assert some.forward <= fit.max_distance * (1 + 1e-9)
     assert fit.max_distance <= fit.hausdorff_distance == fit.tolerance < 1.0
+
+
+def test_the_curve_does_not_fly_where_the_points_leave_a_gap():
+    arc, span = ring(60_000)[:36_000], 20.0  # the closing side is as long
+    fit = ss.fit_large(arc, n_control_points=20, closed=True)
+    # The sample alone, held by the same residuals, strays as far.
+    sample = ss.fit_curve(arc[::2], n_control_points=20, closed=True)
+    assert fit.hausdorff_distance < 1.5 * sample.hausdorff_distance < 0.1 * span
 
 
 @pytest.mark.slow

@@ -135,6 +135,8 @@ def eliminated_equations(
     control_points: FloatArray,
     points: FloatArray,
     parameters: FloatArray,
+    weights: FloatArray | None,
+    stray_weight: float,
     equations: FloatArray,  # out: the cost, the right side, the matrix; of chunks they add up
 ) -> None: ...
 def eliminated_size(n_points: int, degree: int, periodic: bool) -> int: ...

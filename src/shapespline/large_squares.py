@@ -85,24 +85,26 @@ class StreamProblem:
     Parameters
     ----------
     passes : Passes
-    template : BSplineCurve
-        Gives knots, degree and number of control points.
-    known : Parameters
-        From which those of all points are found.
+    sample : Contour
+        Of the points, evenly many.
+    start : Fit
+        To the sample: gives knots, degree, number of control points, and the parameters from which
+        those of all points are found.
     middle : ndarray, shape (2,)
         What control points are counted from.
 
     Notes
     -----
     What `LevenbergMarquardt` asks for. The normal equations are those with the parameters
-    eliminated (`CurveProblem.damped_step`); a step that is dropped needs no pass.
+    eliminated (`CurveProblem.damped_step`); a step that is dropped needs no pass. Where the points
+    leave a gap nothing of them holds the curve: there the stray residuals of the sample do.
     """
 
-    def __init__(
-        self, passes: Passes, template: BSplineCurve, known: Parameters, middle: FloatArray
-    ) -> None:
-        self._passes, self._template, self._middle = passes, template, middle
+    def __init__(self, passes: Passes, sample: Contour, start: Fit, middle: FloatArray) -> None:
+        self._passes, self._template, self._middle = passes, start.spline, middle
+        self._sample = sample.points - middle, parameters_in_order(start, sample)
         begins = passes.stream.begins
+        known = Parameters.of(sample, start, passes.stream.n_points)
         self._known = [known.around(*ends) for ends in pairwise(begins)]
         self._sums: dict[bytes, FloatArray] = {}
         self._base = b""
@@ -139,6 +141,8 @@ class StreamProblem:
                 (curve, begin, known) for begin, known in zip(begins, self._known, strict=False)
             ]
             found = self._passes.over_all(chunk_equations, asked)
+            no_weights = np.zeros(len(self._sample[0]))
+            found.append(_equations(curve.moved, *self._sample, no_weights, STRAY_WEIGHT))
             kept = {self._base: self._sums[self._base]} if self._base in self._sums else {}
             self._sums = kept | {key: np.sum(found, axis=0)}
         return self._sums[key]
@@ -149,7 +153,6 @@ def chunk_equations(
 ) -> FloatArray:
     """What a chunk of points says about the control points."""
     spline, moved = curve.moved, points - curve.middle
-    form = spline.degree, spline.periodic
     problem = CurveProblem(moved, spline)
     parameters = np.interp(np.arange(begin, begin + len(points)), *known)
     first, last = parameters[0], parameters[-1]
@@ -159,9 +162,21 @@ def chunk_equations(
         low, high = spline.domain
         parameters[0] = low if first == low else parameters[0]
         parameters[-1] = high if last == high else parameters[-1]
-    equations = np.empty(_kernels.eliminated_size(spline.n_control_points, *form))
+    return _equations(spline, moved, parameters, None, 0.0)
+
+
+def _equations(
+    spline: BSplineCurve,
+    points: FloatArray,
+    parameters: FloatArray,
+    weights: FloatArray | None,
+    stray_weight: float,
+) -> FloatArray:
+    """Cost, right side and matrix of the normal equations, one after another."""
+    form, control_points = (spline.degree, spline.periodic), spline.control_points
+    equations = np.empty(_kernels.eliminated_size(len(control_points), *form))
     _kernels.eliminated_equations(
-        spline.knots, *form, spline.control_points, moved, parameters, equations
+        spline.knots, *form, control_points, points, parameters, weights, stray_weight, equations
     )
     return equations
 
@@ -191,7 +206,7 @@ def least_squares(
     )
     middle = 0.5 * (seen.low + seen.high)
     n = passes.stream.n_points
-    problem = StreamProblem(passes, start.spline, Parameters.of(sample, start, n), middle)
+    problem = StreamProblem(passes, sample, start, middle)
     run = minimize(
         LevenbergMarquardt(),
         problem,

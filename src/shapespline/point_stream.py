@@ -86,7 +86,8 @@ class PointStream:
         """Some of the points, shape (end - begin, 2), float64."""
         rows = self._points[begin:end]
         if type(rows) is np.ndarray and rows.dtype == np.float64 and rows.flags.c_contiguous:
-            return rows  # nobody writes to it
+            rows.setflags(write=False)  # of this view: nobody writes to what is the caller's
+            return rows
         read = float_array(rows.compute() if self._blocks is not None else rows, "points")
         mapped = getattr(self._points, "_mmap", None)
         if mapped is not None and self._points.mode == "r" and hasattr(mmap, "MADV_DONTNEED"):

@@ -237,8 +237,8 @@ inline constexpr double kAlongPart = 1e-3;
 // The normal equations with the parameters eliminated, written out: the cost, the right side, the
 // matrix in its envelope. A parameter at an end of an open curve does not move.
 inline void eliminated_equations(const Knots &knots, std::span<const Vec2> control_points,
-                                 std::span<const Vec2> points,
-                                 std::span<const double> parameters, std::span<double> out) {
+                                 const Samples &samples, std::span<double> out) {
+    const std::span<const double> parameters = samples.parameters;
     const std::vector<Vec2> unrolled = unroll(control_points, knots.n_coefficients());
     const double least_sq = speed_floor(knots, unrolled);
     const auto inverse_h = [&](std::size_t j, Vec2 tangent) {
@@ -249,7 +249,7 @@ inline void eliminated_equations(const Knots &knots, std::span<const Vec2> contr
         return (1.0 - kAlongPart) / std::max(speed_sq, least_sq);
     };
     NormalEquations equations(control_points.size(), knots.degree, knots.periodic);
-    equations.add(knots, unrolled, Samples{points, parameters, nullptr}, inverse_h);
+    equations.add(knots, unrolled, samples, inverse_h);
     auto at = out.begin();
     *at++ = equations.cost;
     at = std::copy(equations.rhs.begin(), equations.rhs.end(), at);
