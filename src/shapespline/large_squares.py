@@ -59,12 +59,14 @@ class Parameters(NamedTuple):
     values: FloatArray
 
     @classmethod
-    def of(cls, sample: Contour, fit: Fit, n_points: int) -> Parameters:
-        """Those of a sample of evenly many points, the end of an open outline included."""
-        source, (begin, end) = sample.source, fit.spline.domain
+    def of(
+        cls, sample: Contour, along: FloatArray, domain: tuple[float, float], n_points: int
+    ) -> Parameters:
+        """From those of a sample of evenly many points, the end of an open outline included."""
+        source, (begin, end) = sample.source, domain
         if sample.closed:  # but for the first point repeated as the last
             source = source[: 1 + np.flatnonzero(source)[-1]]
-        values = parameters_in_order(fit, sample)[source]
+        values = along[source]
         indices = -(-n_points // SAMPLE) * np.arange(len(values), dtype=np.float64)
         if sample.closed:
             return cls(np.append(indices, n_points), np.append(values, values[0] + end - begin))
@@ -102,9 +104,10 @@ class StreamProblem:
 
     def __init__(self, passes: Passes, sample: Contour, start: Fit, middle: FloatArray) -> None:
         self._passes, self._template, self._middle = passes, start.spline, middle
-        self._sample = sample.points - middle, parameters_in_order(start, sample)
+        along = parameters_in_order(start, sample)
+        self._sample = sample.points - middle, along
         begins = passes.stream.begins
-        known = Parameters.of(sample, start, passes.stream.n_points)
+        known = Parameters.of(sample, along, start.spline.domain, passes.stream.n_points)
         self._known = [known.around(*ends) for ends in pairwise(begins)]
         self._sums: dict[bytes, FloatArray] = {}
         self._base = b""
