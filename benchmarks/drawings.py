@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 import shapespline as ss
-from shapespline.arcs import arc_polyline
 from shapespline.formats.dxf_writer import ARC_PART
+from shapespline.geometry.biarcs import arc_polyline
 
 OUTLINES = Path(__file__).parents[1] / "examples" / "data" / "outlines"
 TOLERANCE = "0.1%"

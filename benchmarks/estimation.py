@@ -21,7 +21,7 @@ from scipy.interpolate import BSpline, make_smoothing_spline, splprep
 import shapespline as ss
 from benchmarks.outside_metric import distance_to_curve
 from benchmarks.quality import LARGE, own_corpus
-from shapespline.noise import noise_level
+from shapespline.analysis.noise import noise_level
 
 if TYPE_CHECKING:
     from collections.abc import Callable

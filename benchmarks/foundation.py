@@ -20,8 +20,8 @@ from scipy.interpolate import BSpline, splprep
 import shapespline as ss
 from benchmarks.outside_metric import distance_to_curve, two_sided
 from benchmarks.paper_runs import NEAR_ITS_END, first_within
-from shapespline.paper import run_paper, timed_start
-from shapespline.residuals import CurveProblem
+from shapespline.engines.least_squares.problem import CurveProblem
+from shapespline.paper.run import run_paper, timed_start
 from shapespline.solvers.iteration import Limits
 
 if TYPE_CHECKING:

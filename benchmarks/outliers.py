@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from shapespline import Contour
-from shapespline.outliers import find_outliers
+from shapespline.analysis.outliers import find_outliers
 
 OUTLINES = Path(__file__).resolve().parents[1] / "examples" / "data" / "outlines"
 PARTS, REACHES = (0.01, 0.05), (0.01, 0.03, 0.1, 0.2)

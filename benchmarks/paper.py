@@ -13,9 +13,9 @@ import numpy as np
 
 from benchmarks import paper_runs as measured
 from benchmarks.paper_text import Findings, document
-from shapespline import paper_figures as figures
 from shapespline.formats.atomic import write_atomically
-from shapespline.paper import PaperRun, run_paper
+from shapespline.paper import figures as figures
+from shapespline.paper.run import PaperRun, run_paper
 
 if TYPE_CHECKING:
     from pathlib import Path

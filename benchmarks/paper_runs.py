@@ -15,9 +15,9 @@ import numpy as np
 
 from benchmarks.predecessor import PredecessorStart, predecessor_solver, predecessor_start
 from shapespline import LITERAL, SENSIBLE, Contour, initial_curve, optimize, read
-from shapespline.cpda import chord_to_point
-from shapespline.distance import two_sided_distance
-from shapespline.paper import (
+from shapespline.analysis.cpda import chord_to_point
+from shapespline.geometry.distances import two_sided_distance
+from shapespline.paper.run import (
     LITERAL_LIMITS,
     SENSIBLE_LIMITS,
     SENSIBLE_STRAY_WEIGHT,
@@ -32,9 +32,10 @@ from shapespline.solvers.iteration import Limits
 from shapespline.solvers.quasi_newton import METHODS, make_solver
 
 if TYPE_CHECKING:
-    from shapespline.distance import Distances
-    from shapespline.drawing import Fit, Iteration
-    from shapespline.optimization import Start
+    from shapespline.fitting.optimization import Start
+    from shapespline.geometry.distances import Distances
+    from shapespline.monitor import Iteration
+    from shapespline.values.fit import Fit
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 DATA = REPOSITORY / "examples" / "data" / "paper"

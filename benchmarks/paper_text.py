@@ -10,13 +10,13 @@ from benchmarks import paper_tables as tables
 from benchmarks.paper_claims import HEADER, claims, span, tenth
 from benchmarks.paper_runs import STRICTER
 from benchmarks.paper_tables import count
-from shapespline.paper import LITERAL_LIMITS, SENSIBLE_LIMITS, SENSIBLE_STRAY_WEIGHT
+from shapespline.paper.run import LITERAL_LIMITS, SENSIBLE_LIMITS, SENSIBLE_STRAY_WEIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from benchmarks.paper_runs import GoingOn, Growth, OutlineRuns, Parameters, Shaken, UnitRow
-    from shapespline.paper import PaperRun
+    from shapespline.paper.run import PaperRun
 
 FOLDER = "figures/paper"
 DOI = "10.1140/epjp/s13360-022-02604-y"

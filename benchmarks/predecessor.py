@@ -21,16 +21,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.contour import Contour
-from shapespline.curve import BSplineCurve
-from shapespline.initial import initial_curve
-from shapespline.knots import clamped_knots, greville_abscissae, periodic_knots
-from shapespline.paper import paper_error
-from shapespline.parametrize import greville_matched, parametrize
+from shapespline.geometry.parametrization import greville_matched, parametrize
+from shapespline.paper.initial import initial_curve
+from shapespline.paper.run import paper_error
 from shapespline.solvers.quasi_newton import make_solver
+from shapespline.values.contour import Contour
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.knots import clamped_knots, greville_abscissae, periodic_knots
 
 if TYPE_CHECKING:
-    from shapespline.reading import Reading
+    from shapespline.paper.reading import Reading
     from shapespline.solvers.quasi_newton import QuasiNewton
     from shapespline.typing import FloatArray
 

@@ -29,7 +29,7 @@ import shapespline as ss
 from benchmarks.outside_metric import two_sided
 from benchmarks.peers import polyline_points, splprep_points
 from benchmarks.worst_fits import draw_worst
-from shapespline.joining import turn_between
+from shapespline.geometry.joining import turn_between
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -15,9 +15,9 @@ from scipy.interpolate import BSpline, splprep
 
 import shapespline as ss
 from benchmarks.foundation import DATA, median_seconds
-from shapespline.curve import BSplineCurve
-from shapespline.distance import two_sided_distance
-from shapespline.removal import LEVELS, SplineResult, fit_spline
+from shapespline.engines.spline.engine import LEVELS, SplineResult, fit_spline
+from shapespline.geometry.distances import two_sided_distance
+from shapespline.values.curve import BSplineCurve
 
 PEERS = ("hand620_closed", "leaf840_closed", "plane1100_closed", "loop500_open")
 # Control points to reach without the product rule, at 0.1 and 0.5 % of the box diagonal.

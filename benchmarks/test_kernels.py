@@ -17,7 +17,7 @@ import pytest
 import shapespline as ss
 from benchmarks.scale import wiggly
 from shapespline import _kernels
-from shapespline.footpoint import nearest
+from shapespline.geometry.nearest import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import settings
 
 from shapespline.__main__ import main
-from shapespline.contour import Contour
+from shapespline.values.contour import Contour
 
 ROOT = Path(__file__).resolve().parents[1]
 OUTLINES = ROOT / "examples" / "data" / "outlines"

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from shapespline.contour import Contour
-from shapespline.curve import BSplineCurve
-from shapespline.drawing import Drawing, Fit, Iteration, Status
-from shapespline.knots import clamped_knots, periodic_knots
+from shapespline.monitor import Iteration
+from shapespline.values.contour import Contour
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.drawing import Drawing
+from shapespline.values.fit import Fit, Status
+from shapespline.values.knots import clamped_knots, periodic_knots
 
 
 def blob(n_control_points=12, degree=3, *, centre=(0.0, 0.0), radius=10.0, seed=0):

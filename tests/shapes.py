@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from tests import reference
 
-from shapespline.contour import Contour
-from shapespline.curve import BSplineCurve
-from shapespline.knots import clamped_knots, periodic_knots
-from shapespline.residuals import CurveProblem
+from shapespline.engines.least_squares.problem import CurveProblem
+from shapespline.values.contour import Contour
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.knots import clamped_knots, periodic_knots
 
 EPS = reference.EPS
 degrees = pytest.mark.parametrize("degree", range(1, 10))

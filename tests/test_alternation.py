@@ -12,14 +12,14 @@ from tests.shapes import flower
 from tests.solver_problems import EPS, PROBLEMS, IllScaledQuadratic
 
 from shapespline import Contour, fit_curve
-from shapespline.curve import BSplineCurve
-from shapespline.footpoint import nearest
-from shapespline.knots import periodic_knots
-from shapespline.residuals import CurveProblem
+from shapespline.engines.least_squares.problem import CurveProblem
+from shapespline.geometry.nearest import nearest
 from shapespline.solvers.alternation import Alternation
 from shapespline.solvers.fixed_parameters import FixedParameters
 from shapespline.solvers.iteration import Limits, Stop, minimize
 from shapespline.solvers.levenberg_marquardt import Proposal
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.knots import periodic_knots
 
 METRICS = ("point", "tangent", "squared")
 every_problem = pytest.mark.parametrize("make", PROBLEMS, ids=lambda p: p.name)

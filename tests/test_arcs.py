@@ -14,11 +14,11 @@ from tests.shapes import moved, random_curve
 from tests.test_exact import bezier, square
 
 import shapespline as ss
-from shapespline.arcs import arc_polyline
-from shapespline.curve import BSplineCurve
 from shapespline.errors import InvalidInputError
-from shapespline.exact import exact_fit
 from shapespline.formats.elliptic import elliptical_arc
+from shapespline.geometry.biarcs import arc_polyline
+from shapespline.geometry.exact import exact_fit
+from shapespline.values.curve import BSplineCurve
 
 
 def segments(found):

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 import shapespline as ss
-from shapespline.batch import TASK_POINTS
+from shapespline.fitting.many import TASK_POINTS
 
 
 def outlines(count):
@@ -103,7 +103,7 @@ def _dies(contours, options):
 
 
 def test_a_worker_that_dies_is_a_failure_of_its_contours(monkeypatch):
-    monkeypatch.setattr("shapespline.batch._fit_all", _dies)
+    monkeypatch.setattr("shapespline.fitting.many._fit_all", _dies)
     with ProcessPoolExecutor(1) as executor:
         batch = ss.fit_many(outlines(2), executor=executor)
     assert sorted(batch.failures) == [0, 1]

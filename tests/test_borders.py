@@ -11,10 +11,10 @@ from numpy.testing import assert_array_equal
 from tests.shapes import on_circle
 
 import shapespline as ss
-from shapespline.crossings import crossing_pairs, self_crossings
-from shapespline.exact import sampled
-from shapespline.sections import fit_pieces
-from shapespline.shared import shared_arcs
+from shapespline.analysis.shared_boundaries import shared_arcs
+from shapespline.engines.pieces.engine import fit_pieces
+from shapespline.geometry.flattening import sampled
+from shapespline.geometry.intersections import crossing_pairs, self_crossings
 
 IMAGES = Path(__file__).resolve().parents[1] / "examples" / "data" / "images"
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from shapespline.drawing import Piece
 from shapespline.formats import chains
+from shapespline.values.piece import Piece
 
 
 def chained(pieces):

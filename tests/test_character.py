@@ -5,7 +5,7 @@ import pytest
 from tests.shapes import moved
 
 from shapespline import Contour, fit_curve
-from shapespline.joining import turn_between
+from shapespline.geometry.joining import turn_between
 
 # A turn below the first is a smooth joint; corners turn more than the second.
 SMOOTH, CORNER = 1.01, 10.0

@@ -15,7 +15,7 @@ from numpy.testing import assert_array_equal
 from tests.test_batch import outlines
 
 import shapespline as ss
-from shapespline.point_stream import CHUNK
+from shapespline.streaming.stream import CHUNK
 
 distributed = pytest.importorskip("dask.distributed", reason="needs shapespline[cluster]")
 

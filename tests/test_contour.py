@@ -12,8 +12,10 @@ from numpy.testing import assert_array_equal
 from tests.reference import EPS
 from tests.shapes import flower, on_circle, rectangle
 
-from shapespline.contour import Contour, Frame, Shape
 from shapespline.errors import DegenerateContourError, DroppedPointsWarning, InvalidInputError
+from shapespline.values.contour import Contour
+from shapespline.values.shape import Shape
+from shapespline.values.view_box import ViewBox
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
@@ -213,7 +215,7 @@ def test_nesting():
     assert shape.longest is shape.contours[4]
     assert len(shape) == 5
     assert list(shape) == list(shape.contours)
-    assert Shape([ring(1)], frame=Frame(0, 0, 4, 3)).frame.width == 4
+    assert Shape([ring(1)], frame=ViewBox(0, 0, 4, 3)).frame.width == 4
     assert Shape(iter([ring(1), ring(2)])).parents == (-1, -1)
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tests.shapes import moved, on_circle, rectangle
 
-from shapespline.contour import Contour
-from shapespline.corners import find_corners, tangent_jumps
+from shapespline.analysis.corners import find_corners, tangent_jumps
+from shapespline.values.contour import Contour
 
 
 def stadium(radius=5.0, side=20.0, spacing=0.25):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from shapespline.formats import read
+from shapespline.formats.registry import read
 
 FOLDER = Path(__file__).resolve().parents[1] / "examples" / "data"
 PERMISSIVE = {

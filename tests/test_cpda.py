@@ -11,8 +11,7 @@ from scipy.signal import find_peaks, peak_prominences
 from tests import reference
 from tests.shapes import flower, moved, on_circle, rectangle, wave
 
-from shapespline.contour import Contour
-from shapespline.cpda import (
+from shapespline.analysis.cpda import (
     accumulate,
     chord_to_point,
     local_maxima,
@@ -20,6 +19,7 @@ from shapespline.cpda import (
     round_off_floor,
 )
 from shapespline.errors import InvalidInputError
+from shapespline.values.contour import Contour
 
 EPS = reference.EPS
 

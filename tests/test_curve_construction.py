@@ -11,9 +11,9 @@ from scipy.interpolate import BSpline, splprep
 from tests.reference import EPS
 from tests.shapes import closures, degrees, on_circle, some_curve
 
-from shapespline.curve import BSplineCurve
 from shapespline.errors import InvalidInputError, OrderError
-from shapespline.knots import clamped_knots, periodic_knots
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.knots import clamped_knots, periodic_knots
 
 # --- attributes --------------------------------------------------------------------------------
 

@@ -14,8 +14,8 @@ from tests import reference
 from tests.shapes import closures, degrees, random_curve, some_curve
 
 from shapespline import _kernels
-from shapespline.curve import BSplineCurve
-from shapespline.knots import clamped_knots, periodic_knots
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.knots import clamped_knots, periodic_knots
 
 EPS = reference.EPS
 

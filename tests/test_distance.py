@@ -10,11 +10,11 @@ from scipy.spatial.distance import directed_hausdorff
 from tests import reference
 from tests.shapes import flower, on_circle, random_curve, wave
 
-from shapespline.contour import Contour
-from shapespline.curve import BSplineCurve
-from shapespline.distance import FLOOR, RELATIVE_GAP, two_sided_distance
-from shapespline.initial import initial_curve
-from shapespline.knots import clamped_knots, periodic_knots
+from shapespline.geometry.distances import FLOOR, RELATIVE_GAP, two_sided_distance
+from shapespline.paper.initial import initial_curve
+from shapespline.values.contour import Contour
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.knots import clamped_knots, periodic_knots
 
 EPS = reference.EPS
 

@@ -7,11 +7,12 @@ import pytest
 from numpy.testing import assert_array_equal
 from tests.make_fit import blob, fit_of, nested, wave
 
-from shapespline.contour import Frame
-from shapespline.curve import BSplineCurve
-from shapespline.drawing import Drawing, Status
 from shapespline.errors import InvalidInputError
-from shapespline.knots import clamped_knots, periodic_knots
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.drawing import Drawing
+from shapespline.values.fit import Status
+from shapespline.values.knots import clamped_knots, periodic_knots
+from shapespline.values.view_box import ViewBox
 
 
 def clamped(points, degree, interior=None):
@@ -131,7 +132,7 @@ def test_a_drawing_keeps_its_nesting():
     assert list(drawing) == list(drawing.fits)
     assert drawing.parents == (-1, 0, 1, -1)
     assert [drawing.is_hole(i) for i in range(4)] == [False, True, False, False]
-    alone = Drawing([fit_of(wave())], frame=Frame(0, 0, 2, 1))
+    alone = Drawing([fit_of(wave())], frame=ViewBox(0, 0, 2, 1))
     assert (alone.parents, alone.frame.height) == ((-1,), 1)
     assert Drawing(iter(drawing.fits)).parents == (-1,) * 4
 

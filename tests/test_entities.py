@@ -11,8 +11,8 @@ from tests.make_fit import blob, fit_of, wave
 from tests.shapes import flower
 
 import shapespline as ss
-from shapespline.curve import BSplineCurve
 from shapespline.formats.entities import entities
+from shapespline.values.curve import BSplineCurve
 
 
 def check(fit, found):

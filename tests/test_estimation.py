@@ -9,7 +9,9 @@ from scipy.spatial import cKDTree
 from tests.shapes import flower, moved
 
 from shapespline import Contour, fit_curve
-from shapespline.estimation import BOX_PARTS, NOISE_BAND, resolution, smooth_start, smoothed
+from shapespline.analysis.resolution import BOX_PARTS, NOISE_BAND, resolution
+from shapespline.engines.least_squares.smoothing import smoothed
+from shapespline.fitting.estimate import smooth_start
 
 SEEDS = range(10)
 

@@ -10,11 +10,12 @@ from scipy.interpolate import BSpline
 from tests.pieces_check import polyline_distances, sampled
 from tests.shapes import random_curve
 
-from shapespline.contour import Frame
-from shapespline.drawing import Piece
 from shapespline.errors import DegenerateContourError, InvalidInputError
-from shapespline.exact import COARSEST, LONGEST_STEP, SAMPLING, Outlines, exact_drawing, exact_fit
-from shapespline.nesting import containing
+from shapespline.geometry.exact import Outlines, exact_drawing, exact_fit
+from shapespline.geometry.flattening import COARSEST, LONGEST_STEP, SAMPLING
+from shapespline.geometry.nesting import containing
+from shapespline.values.piece import Piece
+from shapespline.values.view_box import ViewBox
 
 
 def bezier(*points):
@@ -107,7 +108,7 @@ def test_a_sampling_that_nobody_can_mean():
 
 
 def test_nesting_by_containment_and_open_ones_in_nothing():
-    frame = Frame(0, 0, 20, 20)
+    frame = ViewBox(0, 0, 20, 20)
     stroke = [bezier((2, 2), (3, 3))]
     curves = [
         stroke,

@@ -16,7 +16,10 @@ from shapespline import (
     fit_curve,
     fit_shape,
 )
-from shapespline.balance import balanced_start, bending_parameters
+from shapespline.engines.least_squares.starts.equidistribution import (
+    balanced_start,
+    bending_parameters,
+)
 
 # Root mean square and two-sided distance at an equal number of control points, box diagonal 100:
 # the best joint fit of other programs, one-sided (rms, maximum), which ours must beat both ways.

@@ -12,9 +12,9 @@ from numpy.testing import assert_array_equal
 from tests.reference import EPS
 from tests.shapes import random_curve
 
-from shapespline.curve import BSplineCurve
 from shapespline.errors import InvalidInputError
-from shapespline.footpoint import nearest, nondecreasing
+from shapespline.geometry.nearest import nearest, nondecreasing
+from shapespline.values.curve import BSplineCurve
 
 
 def dense_distances(curve, queries, per_span=400):

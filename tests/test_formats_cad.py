@@ -8,7 +8,7 @@ from tests.make_fit import blob, fit_of, nested, wave
 from tests.round_trip import round_trip
 
 import shapespline as ss
-from shapespline.drawing import Drawing
+from shapespline.values.drawing import Drawing
 
 pytest.importorskip("OCP.Geom", reason="needs shapespline[cad]")
 rhino3dm = pytest.importorskip("rhino3dm", reason="needs shapespline[rhino]")

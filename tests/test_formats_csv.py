@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shapespline.errors import DegenerateContourError, FormatError
-from shapespline.formats import csv, read
+from shapespline.formats import csv
+from shapespline.formats.registry import read
 
 numbers = st.floats(-1e12, 1e12, allow_nan=False)
 point_lists = st.lists(st.tuples(numbers, numbers), min_size=1, max_size=12)

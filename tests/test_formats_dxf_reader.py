@@ -21,10 +21,10 @@ from tests.test_exact import bezier, square
 
 import shapespline as ss
 from shapespline.errors import FormatError, SkippedContentWarning
-from shapespline.exact import Outlines, exact_drawing, exact_fit
-from shapespline.footpoint import nearest
 from shapespline.formats import dxf_reader, dxf_writer
 from shapespline.formats.splines import spline_pieces
+from shapespline.geometry.exact import Outlines, exact_drawing, exact_fit
+from shapespline.geometry.nearest import nearest
 
 
 @pytest.fixture

@@ -18,11 +18,11 @@ from tests.test_arcs import on_segment
 from tests.test_exact import bezier
 
 import shapespline as ss
-from shapespline.drawing import Drawing
 from shapespline.errors import InvalidInputError
-from shapespline.exact import Outlines, exact_drawing
-from shapespline.footpoint import nearest
 from shapespline.formats import dxf_writer
+from shapespline.geometry.exact import Outlines, exact_drawing
+from shapespline.geometry.nearest import nearest
+from shapespline.values.drawing import Drawing
 
 
 def opened(tmp_path, drawing, **options):

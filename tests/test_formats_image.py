@@ -14,10 +14,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from shapespline.contour import Frame
 from shapespline.errors import DegenerateContourError, FormatError, ShapesplineError
 from shapespline.formats import image as image_format
-from shapespline.formats import read
+from shapespline.formats.registry import read
+from shapespline.values.view_box import ViewBox
 
 HEIGHT, WIDTH = 40, 60
 
@@ -59,7 +59,7 @@ def same_outline(points, expected, within):
 
 def test_coordinates_by_hand(tmp_path, expected):
     shape = read(saved(tmp_path, Image.fromarray(BYTES), "l.png"))
-    assert shape.frame == Frame(0, 0, WIDTH, HEIGHT)
+    assert shape.frame == ViewBox(0, 0, WIDTH, HEIGHT)
     # Right and lower edges lie between pixels: column 45, row 30, y up.
     assert expected[:, 0].max() == pytest.approx(45, abs=0.01)
     assert expected[:, 1].min() == pytest.approx(HEIGHT - 30, abs=0.01)
@@ -170,7 +170,7 @@ def test_the_camera_s_orientation_is_undone(tmp_path, expected, orientation):
     exif = Image.Exif()
     exif[0x0112] = orientation
     shape = read(saved(tmp_path, seen, "l.png", exif=exif))
-    assert shape.frame == Frame(0, 0, WIDTH, HEIGHT)
+    assert shape.frame == ViewBox(0, 0, WIDTH, HEIGHT)
     assert np.array_equal(shape.longest.points, expected)
 
 

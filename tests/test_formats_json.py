@@ -12,10 +12,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.make_fit import blob, fit_of, nested, wave
 
-from shapespline.contour import Contour, Frame
-from shapespline.drawing import Drawing, Fit, Iteration, Status
 from shapespline.errors import DroppedPointsWarning, FormatError
 from shapespline.formats import json as subject
+from shapespline.monitor import Iteration
+from shapespline.values.contour import Contour
+from shapespline.values.drawing import Drawing
+from shapespline.values.fit import Fit, Status
+from shapespline.values.view_box import ViewBox
 
 
 def same_bits(a, b):
@@ -80,7 +83,7 @@ def read_text(tmp_path):
 @pytest.fixture
 def document():
     return json.loads(
-        subject.encode(Drawing([fit_of(wave(), n_points=6)], frame=Frame(0, 0, 9, 9)))
+        subject.encode(Drawing([fit_of(wave(), n_points=6)], frame=ViewBox(0, 0, 9, 9)))
     )
 
 
@@ -110,7 +113,7 @@ def test_round_trip_of_nesting_frame_and_texts(round_trip):
         ),
         *fits[1:],
     ]
-    drawing = Drawing(fits, [-1, 0, 1, -1], Frame(-0.1, 1 / 3, 640.0, 480.5))
+    drawing = Drawing(fits, [-1, 0, 1, -1], ViewBox(-0.1, 1 / 3, 640.0, 480.5))
     assert_same(round_trip(drawing), drawing)
 
 
@@ -180,7 +183,7 @@ def test_what_json_cannot_hold_is_not_written(field, value):
     with pytest.raises(FormatError, match="parameters must be finite"):
         subject.encode(Drawing([fit_of(wave(), parameters=np.array([0.0, value]))]))
     with pytest.raises(FormatError, match=r"frame\.width must be finite"):
-        subject.encode(Drawing([fit_of(wave())], frame=Frame(0, 0, value, 1)))
+        subject.encode(Drawing([fit_of(wave())], frame=ViewBox(0, 0, value, 1)))
 
 
 def changed(document, path, value):

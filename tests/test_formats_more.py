@@ -15,8 +15,8 @@ from PIL import Image
 from tests.make_fit import blob, fit_of, nested, wave
 
 import shapespline as ss
-from shapespline.drawing import Drawing
 from shapespline.formats import csv, geojson, pdf, picture
+from shapespline.values.drawing import Drawing
 
 CHORD = 0.01
 

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shapespline.errors import FormatError, InvalidInputError
-from shapespline.formats import read
+from shapespline.formats.registry import read
 
 POINTS = np.array([(0, 0), (4, 0), (4, 1), (0, 1)])
 

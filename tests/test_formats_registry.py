@@ -13,9 +13,10 @@ from types import ModuleType
 
 import pytest
 
-from shapespline import formats
 from shapespline.errors import FormatError, InvalidInputError, UnknownFormatError
-from shapespline.formats import Format, atomic, read, readable, writable, write, write_atomically
+from shapespline.formats import atomic
+from shapespline.formats import registry as formats
+from shapespline.formats.registry import Format, read, readable, writable, write, write_atomically
 
 SQUARE = "0,0\n4,0\n4,4\n0,4\n0,0\n"
 

@@ -17,12 +17,12 @@ from tests.make_fit import blob, fit_of, nested, wave
 from tests.round_trip import round_trip
 
 import shapespline as ss
-from shapespline.contour import Frame
-from shapespline.drawing import Drawing
 from shapespline.errors import FormatError, SkippedContentWarning
-from shapespline.exact import exact_drawing
-from shapespline.footpoint import nearest
 from shapespline.formats import svg_reader as subject
+from shapespline.geometry.exact import exact_drawing
+from shapespline.geometry.nearest import nearest
+from shapespline.values.drawing import Drawing
+from shapespline.values.view_box import ViewBox
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
 PAGE = 'viewBox="0 0 40 30"'
@@ -60,7 +60,7 @@ def test_every_command_by_hand(drawn):
     ]  # fmt: skip
     assert [p.tolist() for p in flipped] == [[list(map(float, q)) for q in p] for p in expected]
     assert [piece.degree for piece in found.curves[0]] == [1, 1, 1, 1, 3, 3, 2, 2, 1, 1]
-    assert found.frame == Frame(0, 0, 40, 30)
+    assert found.frame == ViewBox(0, 0, 40, 30)
     assert found.unit == "px"
 
 
@@ -150,7 +150,7 @@ def test_pages_and_units(drawn, attributes, scale, unit):
 def test_a_view_box_off_the_origin_keeps_its_place(drawn):
     found = drawn(path("M12 22L13 23"), 'viewBox="10 20 40 30"')
     assert points(found) == [[[12.0, 48.0], [13.0, 47.0]]]
-    assert found.frame == Frame(10, 20, 40, 30)
+    assert found.frame == ViewBox(10, 20, 40, 30)
 
 
 def test_without_a_page_y_turns_within_its_own_box(drawn):
@@ -227,7 +227,7 @@ def test_a_close_within_rounding_is_no_piece(drawn):
 @pytest.mark.parametrize("degree", [1, 2, 3])
 @pytest.mark.parametrize("unit", [None, "mm", "in", "px"])
 def test_what_our_writer_wrote_comes_back(tmp_path, degree, unit):
-    frame = Frame(-20, -20, 60, 60)
+    frame = ViewBox(-20, -20, 60, 60)
     fits = [fit_of(blob(11, degree)), fit_of(blob(7, degree, radius=4)), fit_of(wave(9, degree))]
     drawing = Drawing(fits, [-1, 0, -1], frame, unit)
     again = round_trip(drawing, tmp_path / "drawing.svg")
@@ -241,14 +241,14 @@ def test_what_our_writer_wrote_comes_back(tmp_path, degree, unit):
 
 
 def test_nesting_comes_back(tmp_path):
-    drawing = Drawing(nested().fits, nested().parents, Frame(-20, -20, 60, 60))
+    drawing = Drawing(nested().fits, nested().parents, ViewBox(-20, -20, 60, 60))
     again = round_trip(drawing, tmp_path / "drawing.svg")
     assert again.parents == (-1, 0, 1, -1)
 
 
 def test_an_outline_fitted_and_read_again_is_the_same(tmp_path, outline):
     fit = ss.fit_curve(outline("hand620_closed"), tolerance="0.1%")
-    frame = Frame(*fit.contour.points.min(axis=0), *np.ptp(fit.contour.points, axis=0))
+    frame = ViewBox(*fit.contour.points.min(axis=0), *np.ptp(fit.contour.points, axis=0))
     round_trip(Drawing([fit], frame=frame), tmp_path / "hand.svg")
 
 

@@ -10,16 +10,17 @@ import pytest
 import svgelements
 from tests.make_fit import blob, fit_of, nested, wave
 
-from shapespline.contour import Contour, Frame
-from shapespline.curve import BSplineCurve
-from shapespline.drawing import Drawing
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats import cubics as beziers
 from shapespline.formats import svg_writer as subject
-from shapespline.knots import clamped_knots
+from shapespline.values.contour import Contour
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.drawing import Drawing
+from shapespline.values.knots import clamped_knots
+from shapespline.values.view_box import ViewBox
 
 EPS = np.finfo(float).eps
-FRAME = Frame(0.0, 0.0, 40.0, 30.0)
+FRAME = ViewBox(0.0, 0.0, 40.0, 30.0)
 
 
 def root_of(data):
@@ -189,14 +190,14 @@ def test_y_is_turned_over_once():
     """An L: its foot is at the bottom, which is large y in the file."""
     points = [(1, 1), (5, 1), (5, 2), (2, 2), (2, 9), (1, 9), (1, 1)]
     fit = fit_of(BSplineCurve(clamped_knots(7, 1), points, 1))
-    data = subject.encode(Drawing([fit], frame=Frame(0, 0, 6, 10)))
+    data = subject.encode(Drawing([fit], frame=ViewBox(0, 0, 6, 10)))
     assert view_box(data).tolist() == [0, 0, 6, 10]
     assert 'd="M1 9L5 9L5 8L2 8L2 1L1 1Z"' in data.decode()
 
 
 def test_a_frame_off_the_origin_keeps_its_place():
     fit = fit_of(BSplineCurve(clamped_knots(2, 1), [(10, 20), (14, 26)], 1))
-    data = subject.encode(Drawing([fit], frame=Frame(10, 20, 4, 8)))
+    data = subject.encode(Drawing([fit], frame=ViewBox(10, 20, 4, 8)))
     assert view_box(data).tolist() == [10, 20, 4, 8]
     assert 'd="M10 28L14 22"' in data.decode()
 
@@ -313,7 +314,7 @@ def test_a_stroke_width_out_of_range(width):
 def test_frames_and_nestings_that_make_no_sense():
     fit = fit_of(wave())
     with pytest.raises(FormatError, match="frame must be finite and have an area"):
-        subject.encode(Drawing([fit], frame=Frame(0, 0, 5, 0)))
+        subject.encode(Drawing([fit], frame=ViewBox(0, 0, 5, 0)))
 
 
 def test_a_curve_far_smaller_than_its_coordinates_ends():

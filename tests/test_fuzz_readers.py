@@ -16,7 +16,7 @@ from PIL import Image
 from tests.make_fit import fit_of, nested, wave
 
 import shapespline as ss
-from shapespline.drawing import Drawing
+from shapespline.values.drawing import Drawing
 
 
 def valid(folder, ending):

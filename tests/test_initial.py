@@ -10,16 +10,13 @@ from numpy.testing import assert_array_equal
 from tests.reference import EPS
 from tests.shapes import flower, moved, on_circle, rectangle, wave
 
-from shapespline.contour import Contour
-from shapespline.cpda import accumulate
+from shapespline.analysis.cpda import accumulate
 from shapespline.errors import DegenerateContourError, InvalidInputError
-from shapespline.initial import (
-    CHORD_STEPS,
-    initial_curve,
-)
-from shapespline.knots import clamped_knots, greville_abscissae, periodic_knots
-from shapespline.parametrize import PARAMETRIZATIONS, parametrize
-from shapespline.reading import LITERAL, SENSIBLE, Reading
+from shapespline.geometry.parametrization import PARAMETRIZATIONS, parametrize
+from shapespline.paper.initial import CHORD_STEPS, initial_curve
+from shapespline.paper.reading import LITERAL, SENSIBLE, Reading
+from shapespline.values.contour import Contour
+from shapespline.values.knots import clamped_knots, greville_abscissae, periodic_knots
 
 degrees = pytest.mark.parametrize("degree", range(1, 10))
 # Petals and the bends between them at every 24th point, steps equal to 1 in 1000: not resampled.

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from shapespline.drawing import Piece
-from shapespline.joining import elevated, joined
+from shapespline.geometry.joining import elevated, joined
+from shapespline.values.piece import Piece
 
 LINE = np.array([0.0, 0, 1, 1])
 QUADRATIC = np.array([0.0, 0, 0, 1, 1, 1])

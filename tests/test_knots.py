@@ -10,7 +10,7 @@ from tests import reference
 from tests.shapes import random_curve
 
 from shapespline.errors import DegenerateContourError, InvalidInputError, OrderError
-from shapespline.knots import (
+from shapespline.values.knots import (
     check_degree,
     check_knots,
     clamped_knots,

@@ -11,9 +11,9 @@ from numpy.testing import assert_array_equal
 
 import shapespline as ss
 from shapespline import _kernels
-from shapespline.averaging import averaged, averages, strayed
-from shapespline.frame import _first_in_head, canonical_reading
-from shapespline.point_stream import CHUNK, PointStream
+from shapespline.analysis.normalization import _first_in_head, canonical_reading
+from shapespline.analysis.run_averages import averaged, averages, strayed
+from shapespline.streaming.stream import CHUNK, PointStream
 
 N = 2 * CHUNK + 12_345
 

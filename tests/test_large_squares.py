@@ -12,10 +12,11 @@ from scipy.spatial import cKDTree
 
 import shapespline as ss
 from shapespline import _kernels
-from shapespline.contour import Contour
-from shapespline.footpoint import nearest
-from shapespline.large_squares import MOST_PASSES
-from shapespline.point_stream import CHUNK
+from shapespline.engines.least_squares.streamed import MOST_PASSES
+from shapespline.geometry.nearest import nearest
+from shapespline.streaming.stream import CHUNK
+from shapespline.values import clamped_knots, periodic_knots
+from shapespline.values.contour import Contour
 
 N = 2 * CHUNK + 12_345
 ALONG_PART = 1e-3  # of the way along the tangent, the kernel's
@@ -45,7 +46,7 @@ def off(fit, truth):
 def test_the_step_is_that_of_the_dense_equations(degree, periodic):
     random = np.random.default_rng(degree)
     m, n, damping = 12, 90, 0.3
-    knots = ss.knots.periodic_knots(m, degree) if periodic else ss.knots.clamped_knots(m, degree)
+    knots = periodic_knots(m, degree) if periodic else clamped_knots(m, degree)
     angle = 2 * np.pi * np.arange(m) / m
     control_points = np.column_stack([3 * np.cos(angle), np.sin(angle)])
     control_points += random.normal(0, 0.05, (m, 2))

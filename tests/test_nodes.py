@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tests.test_joining import CUBIC, LINE, piece
 
-from shapespline.joining import turn_between
-from shapespline.nodes import aligned
+from shapespline.engines.pieces.tangents import aligned
+from shapespline.geometry.joining import turn_between
 
 
 def test_aligned_removes_a_small_turn_and_leaves_a_large_one():

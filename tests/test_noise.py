@@ -7,8 +7,8 @@ import pytest
 from scipy.stats import chi2
 from tests.shapes import flower, rectangle, wave
 
-from shapespline.contour import Contour
-from shapespline.noise import HALF_WINDOW, noise_level
+from shapespline.analysis.noise import HALF_WINDOW, noise_level
+from shapespline.values.contour import Contour
 
 DEGREES_OF_FREEDOM = 2 * HALF_WINDOW + 1 - 4
 

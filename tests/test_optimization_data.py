@@ -10,14 +10,14 @@ from numpy.testing import assert_array_equal
 from tests.reference import EPS
 from tests.shapes import Start, flower, moved, on_circle, random_curve, wave
 
-from shapespline.contour import Contour
-from shapespline.curve import BSplineCurve
-from shapespline.distance import RELATIVE_GAP, two_sided_distance
-from shapespline.drawing import Fit
 from shapespline.errors import DroppedPointsWarning, InvalidInputError
-from shapespline.initial import initial_curve
-from shapespline.optimization import DEFAULT_LIMITS, optimize
+from shapespline.fitting.optimization import DEFAULT_LIMITS, optimize
+from shapespline.geometry.distances import RELATIVE_GAP, two_sided_distance
+from shapespline.paper.initial import initial_curve
 from shapespline.solvers.iteration import Limits
+from shapespline.values.contour import Contour
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.fit import Fit
 
 SHORT = Limits(max_iterations=25)
 

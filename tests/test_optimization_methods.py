@@ -12,15 +12,16 @@ from numpy.testing import assert_array_equal
 from tests.reference import EPS, sampled_distances
 from tests.shapes import Start, flower, wave
 
-from shapespline.contour import Contour
-from shapespline.curve import BSplineCurve
-from shapespline.drawing import Status
-from shapespline.initial import initial_curve
-from shapespline.optimization import METHODS, optimize
-from shapespline.reading import LITERAL
+from shapespline.engines.least_squares import METHODS
+from shapespline.fitting import optimize
+from shapespline.paper.initial import initial_curve
+from shapespline.paper.reading import LITERAL
 from shapespline.solvers.iteration import Limits
 from shapespline.solvers.levenberg_marquardt import LevenbergMarquardt
 from shapespline.solvers.quasi_newton import make_solver
+from shapespline.values.contour import Contour
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.fit import Status
 
 methods = pytest.mark.parametrize("method", METHODS)
 SHORT = Limits(max_iterations=25)

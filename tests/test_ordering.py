@@ -10,7 +10,7 @@ import pytest
 from tests.shapes import flower, on_circle
 
 import shapespline as ss
-from shapespline.ordering import looks_shuffled
+from shapespline.analysis.reconstruction.ordering import looks_shuffled
 
 
 def adjacent(order, closed):

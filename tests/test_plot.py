@@ -10,17 +10,13 @@ import pytest
 from PIL import Image
 from tests.make_fit import blob, fit_of, history, nested, wave
 
-from shapespline import paper_figures, plot
-from shapespline.contour import Contour
-from shapespline.curve import BSplineCurve
-from shapespline.drawing import Drawing
-from shapespline.errors import (
-    FormatError,
-    InvalidInputError,
-    MissingExtraError,
-    UnknownFormatError,
-)
-from shapespline.knots import clamped_knots
+from shapespline.errors import FormatError, InvalidInputError, MissingExtraError, UnknownFormatError
+from shapespline.paper import figures as paper_figures
+from shapespline.plotting import fit_plot as plot
+from shapespline.values.contour import Contour
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.drawing import Drawing
+from shapespline.values.knots import clamped_knots
 
 pytest.importorskip("matplotlib")
 

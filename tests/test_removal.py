@@ -10,12 +10,12 @@ from benchmarks.scale import wiggly
 from scipy.spatial import cKDTree
 from tests.shapes import flower, moved, on_circle, rectangle, wave
 
-from shapespline import removal
-from shapespline.contour import Contour
-from shapespline.drawing import Status
+from shapespline.engines.spline import engine as removal
+from shapespline.engines.spline.engine import fit_spline
+from shapespline.engines.spline.fairness import GAP_RATIO, SPEED_RATIO, RuleReport
 from shapespline.errors import InvalidInputError
-from shapespline.progress import Watch
-from shapespline.removal import GAP_RATIO, SPEED_RATIO, RuleReport, fit_spline
+from shapespline.monitor import End, Monitor
+from shapespline.values.contour import Contour
 
 # Control points with the product rule at 0.1 and 0.5 % of the box diagonal: no more than these.
 MOST_POINTS = [
@@ -204,11 +204,11 @@ def test_more_effort_never_breaks_the_promise():
 
 def test_the_callback_sees_the_stages_and_ends_the_search():
     # The first stage removes the cheapest knots, the second insists on the others.
-    watch = Watch(lambda record: record.iteration == 1)
-    fit = fit_spline(flower(), 0.02, watch=watch)
-    assert watch.ended_as == Status.CANCELLED
+    monitor = Monitor(lambda record: record.iteration == 1)
+    fit = fit_spline(flower(), 0.02, monitor=monitor)
+    assert monitor.ended is End.CANCELLED
     assert fit.kept
-    first, second = (record.cost for record in watch.history)
+    first, second = (record.cost for record in monitor.history)
     assert first >= second == fit.n_control_points
 
 

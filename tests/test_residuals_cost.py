@@ -10,10 +10,10 @@ from numpy.testing import assert_array_equal
 from tests import reference
 from tests.shapes import Case, closures, degrees
 
-from shapespline.curve import BSplineCurve
+from shapespline.engines.least_squares.problem import DIAGONAL_FLOOR, CurveProblem
 from shapespline.errors import InvalidInputError
-from shapespline.knots import clamped_knots, periodic_knots
-from shapespline.residuals import DIAGONAL_FLOOR, CurveProblem
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.knots import clamped_knots, periodic_knots
 
 EPS = reference.EPS
 

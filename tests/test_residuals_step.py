@@ -13,9 +13,9 @@ from tests import reference
 from tests.shapes import Case, closures, degrees
 
 from shapespline import _kernels
-from shapespline.curve import BSplineCurve
 from shapespline.errors import InvalidInputError
-from shapespline.knots import clamped_knots
+from shapespline.values.curve import BSplineCurve
+from shapespline.values.knots import clamped_knots
 
 EPS = reference.EPS
 

@@ -10,9 +10,9 @@ from scipy.interpolate import BSpline
 from tests.pieces_check import chord_error, end_gaps, sampled, sampled_distances
 from tests.shapes import flower, moved, on_circle, rectangle, wave
 
-from shapespline.contour import Contour
+from shapespline.engines.pieces.engine import fit_pieces
 from shapespline.errors import InvalidInputError
-from shapespline.sections import fit_pieces
+from shapespline.values.contour import Contour
 
 PEERS = ("hand620_closed", "leaf840_closed", "plane1100_closed", "loop500_open")
 # Stored points of the balanced search: upper bounds, so that a change shows what it costs.

@@ -5,8 +5,8 @@ import pytest
 from tests.shapes import flower, moved, rectangle, wave
 
 from shapespline import Contour, InvalidInputError, fit_curve
-from shapespline.frame import THINNING
-from shapespline.symmetry import REFINED, SAMPLES, find_mirror
+from shapespline.analysis.mirror import REFINED, SAMPLES, find_mirror
+from shapespline.analysis.normalization import THINNING
 
 
 def keyhole(n=240):

@@ -8,8 +8,13 @@ from tests.reference import distances_to_polyline
 from tests.shapes import flower, on_circle, rectangle
 
 from shapespline import Contour, _kernels, fit_curve
-from shapespline.frame import FEWEST_POINTS, THINNING, WORTH_THINNING, WorkingFrame
-from shapespline.outline import SearchOutline
+from shapespline.analysis import has_straight_runs
+from shapespline.analysis.normalization import (
+    FEWEST_POINTS,
+    THINNING,
+    WORTH_THINNING,
+    NormalizedContour,
+)
 
 NONE_MARKED = np.empty(0, dtype=np.int64)
 
@@ -68,7 +73,7 @@ def test_a_dense_outline_thins_to_what_its_bends_need():
 
 def test_a_thinned_frame_tells_which_points_are_left():
     contour = flower(4000)
-    frame = WorkingFrame.of(contour)
+    frame = NormalizedContour.of(contour)
     thin = frame.thinned(0.05 * frame.scale, np.array([5, 77]))
     assert len(thin.contour) <= WORTH_THINNING * len(contour)
     assert {5, 77} <= set(np.flatnonzero(np.isin(frame.order, thin.order)))
@@ -78,9 +83,9 @@ def test_a_thinned_frame_tells_which_points_are_left():
 
 
 def test_small_or_rough_outlines_stay_whole():
-    small = WorkingFrame.of(flower(FEWEST_POINTS))
+    small = NormalizedContour.of(flower(FEWEST_POINTS))
     assert small.thinned(1.0, NONE_MARKED) is small
-    rough = WorkingFrame.of(Contour(noisy_walk(3000, 0.2), closed=False))
+    rough = NormalizedContour.of(Contour(noisy_walk(3000, 0.2), closed=False))
     assert rough.thinned(0.01, NONE_MARKED) is rough
 
 
@@ -94,7 +99,8 @@ def test_small_or_rough_outlines_stay_whole():
     ],
 )
 def test_straight_runs_of_the_data_are_seen(contour, straight):
-    assert SearchOutline.of(contour, 0.05, None).has_straight_runs is straight
+    work = NormalizedContour.of(contour)
+    assert has_straight_runs(work.contour, 0.05 * work.scale) is straight
 
 
 @pytest.mark.parametrize("form", ["pieces", "spline"])

@@ -10,8 +10,8 @@ from numpy.testing import assert_array_equal
 from tests.shapes import flower, moved
 
 from shapespline import Contour, InvalidInputError, Shape, Status, fit_curve, fit_shape, read, write
-from shapespline.sections import fit_pieces
-from shapespline.tolerance import tolerance_length
+from shapespline.engines.pieces.engine import fit_pieces
+from shapespline.fitting.within import tolerance_length
 
 PINNED = Path(__file__).with_name("pinned_points.csv")
 # Stored points at a tolerance of 0.1 and 0.5 on a box diagonal of 100, upper bounds: what the

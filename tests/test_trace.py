@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.path import Path as MplPath
 
-from shapespline.contour import Frame
 from shapespline.errors import DegenerateContourError, InvalidInputError
-from shapespline.trace import nested, otsu_level, trace_image
+from shapespline.tracing.outlines import nested, otsu_level, trace_image
+from shapespline.values.view_box import ViewBox
 
 LEAST_SPACING = 1e-3  # pixels; closer points are merged
 
@@ -70,7 +70,7 @@ def test_a_disc_is_traced_within_the_error_of_linear_interpolation(radius, centr
     # interpolating over one pixel errs by an eighth of that. Rounding moves values by 1/2 of 255.
     assert off.max() <= 1 / (8 * (radius - 1)) + 0.5 * ramp / 255
     assert signed_area(points) > 0
-    assert shape.frame == Frame(0, 0, 80, 80)
+    assert shape.frame == ViewBox(0, 0, 80, 80)
 
 
 def test_otsu_finds_the_middle_of_an_edge_by_itself():

@@ -12,16 +12,16 @@ from numpy.testing import assert_allclose, assert_array_equal
 from tests import shapes
 
 import shapespline as ss
-from shapespline.crossings import crossing_pairs, self_crossings
-from shapespline.drawing import Piece
-from shapespline.exact import sampled
-from shapespline.footpoint import nearest
-from shapespline.joining import joined
-from shapespline.sections import fit_pieces
-from shapespline.slits import Sides, moved
-from shapespline.trails import Row, Trail, curve_of, located
-from shapespline.uncrossing import _no_larger_than_data
-from shapespline.verification import verified_fit
+from shapespline.engines.pieces.engine import fit_pieces
+from shapespline.fitting.repair.assignment import DataRun, PieceAssignment, curve_of, located
+from shapespline.fitting.repair.clearance import Sides, moved
+from shapespline.fitting.repair.crossings import _no_larger_than_data
+from shapespline.fitting.verify import verified_fit
+from shapespline.geometry.flattening import sampled
+from shapespline.geometry.intersections import crossing_pairs, self_crossings
+from shapespline.geometry.joining import joined
+from shapespline.geometry.nearest import nearest
+from shapespline.values.piece import Piece
 
 IMAGES = Path(__file__).resolve().parents[1] / "examples" / "data" / "images"
 
@@ -96,7 +96,7 @@ def test_every_outline_of_a_drawing_comes_apart():
 
 
 def trail(contour):
-    return Trail(contour.points, contour.arc_length[: len(contour)])
+    return DataRun(contour.points, contour.arc_length[: len(contour)])
 
 
 def test_what_lies_across_a_slit_by_hand():
@@ -127,7 +127,7 @@ def test_points_move_apart_and_no_farther_than_the_room():
 def test_parts_hold_every_point_once_from_any_of_them_on():
     contour = ss.Contour(ribbon(7, 0.002), closed=True)
     fit = ss.fit_curve(contour, tolerance=0.3)
-    row = Row.of(0, fit)
+    row = PieceAssignment.of(0, fit)
     for at in range(len(row.parts)):
         turned = row.turned(at)
         bounds = [part.begin for part in turned.parts] + [turned.parts[-1].end]
@@ -148,7 +148,7 @@ def test_points_that_scatter_go_with_their_pieces():
     scatter = 0.9 * tolerance * (-1.0) ** np.arange(len(x)) * (x < 50)
     data = ss.Contour(np.column_stack([x, y + scatter]), closed=False)
     assert data.length > 10 * fit.spline.length()
-    parts = located(Trail(data.points, data.arc_length), pieces, tolerance)
+    parts = located(DataRun(data.points, data.arc_length), pieces, tolerance)
     for part in parts:
         own = data.points[part.begin : part.end]
         assert len(own)

@@ -9,16 +9,18 @@ from tests.make_fit import nested
 from tests.test_exact import square
 
 from shapespline import read, write
-from shapespline.contour import Contour, Frame, Shape
-from shapespline.drawing import Drawing
 from shapespline.errors import InvalidInputError
-from shapespline.exact import Outlines
-from shapespline.scaling import in_unit
+from shapespline.geometry.exact import Outlines
+from shapespline.geometry.scaling import in_unit
 from shapespline.units import MILLIMETRES, UNITS, checked_unit, conversion
+from shapespline.values.contour import Contour
+from shapespline.values.drawing import Drawing
+from shapespline.values.shape import Shape
+from shapespline.values.view_box import ViewBox
 
 
 def line(unit=None, length=1.0):
-    return Shape([Contour([(0, 0), (length, 0)], accuracy=0.25)], None, Frame(0, 0, 2, 4), unit)
+    return Shape([Contour([(0, 0), (length, 0)], accuracy=0.25)], None, ViewBox(0, 0, 2, 4), unit)
 
 
 def length(shape):
@@ -64,7 +66,7 @@ def test_there_and_back_again(one, other):
 def test_in_unit(unit, wanted, scale, dpi, expected):
     found = in_unit(line(unit), wanted, scale, dpi)
     assert (length(found), found.unit) == (pytest.approx(expected[0], rel=1e-15), expected[1])
-    assert found.frame == pytest.approx(Frame(0, 0, 2 * expected[0], 4 * expected[0]))
+    assert found.frame == pytest.approx(ViewBox(0, 0, 2 * expected[0], 4 * expected[0]))
     assert found.contours[0].accuracy == pytest.approx(0.25 * expected[0])
 
 
@@ -88,7 +90,7 @@ def test_what_cannot_be_known_is_asked_for(unit, options, message):
 
 
 def test_every_length_of_a_drawing_is_scaled_and_nothing_else():
-    drawing = Drawing(nested().fits, nested().parents, Frame(1, 2, 3, 4), "cm")
+    drawing = Drawing(nested().fits, nested().parents, ViewBox(1, 2, 3, 4), "cm")
     found = in_unit(drawing, "mm")
     assert (found.unit, found.parents, found.frame) == ("mm", drawing.parents, (10, 20, 30, 40))
     for one, other in zip(drawing, found, strict=True):

@@ -7,8 +7,8 @@ import pytest
 from benchmarks.outside_metric import two_sided
 
 import shapespline as ss
-from shapespline.footpoint import nearest
-from shapespline.weighting import Limits, weighted
+from shapespline.fitting.repair.weights import Limits, weighted
+from shapespline.geometry.nearest import nearest
 
 N = 400
 T = np.linspace(0, 2 * np.pi, N, endpoint=False)

@@ -11,11 +11,7 @@ from typing import TYPE_CHECKING
 from shapespline._version import __version__
 
 if TYPE_CHECKING:
-    from shapespline.batch import Batch, fit_many
-    from shapespline.comparison import Comparison, compare
-    from shapespline.contour import Contour, Frame, Shape
-    from shapespline.curve import BSplineCurve
-    from shapespline.drawing import Drawing, Fit, Piece, Status
+    from shapespline.analysis import Ordering, order_points
     from shapespline.errors import (
         DegenerateContourError,
         DroppedPointsWarning,
@@ -28,53 +24,59 @@ if TYPE_CHECKING:
         SkippedContentWarning,
         UnknownFormatError,
     )
-    from shapespline.fitting import fit_curve
+    from shapespline.fitting import Batch, fit_curve, fit_large, fit_many, fit_shape, optimize
     from shapespline.formats import read, write
-    from shapespline.initial import InitialCurve, initial_curve
-    from shapespline.large import fit_large
-    from shapespline.large_fit import FootParameters, LargeFit
-    from shapespline.optimization import optimize
-    from shapespline.ordering import Ordering, order_points
-    from shapespline.reading import LITERAL, SENSIBLE, Reading
-    from shapespline.reconstruction import fit_shape
+    from shapespline.geometry import Comparison, compare
+    from shapespline.paper import LITERAL, SENSIBLE, InitialCurve, Reading, initial_curve
+    from shapespline.streaming import FootParameters, LargeFit
+    from shapespline.values import (
+        BSplineCurve,
+        Contour,
+        Drawing,
+        Fit,
+        Piece,
+        Shape,
+        Status,
+        ViewBox,
+    )
 
-# Public name -> module that defines it.
+# Public name -> the room that offers it.
 _HOME = {
-    "BSplineCurve": "curve",
-    "Batch": "batch",
-    "Comparison": "comparison",
-    "Contour": "contour",
+    "BSplineCurve": "values",
+    "Batch": "fitting",
+    "Comparison": "geometry",
+    "Contour": "values",
     "DegenerateContourError": "errors",
-    "Drawing": "drawing",
+    "Drawing": "values",
     "DroppedPointsWarning": "errors",
-    "Fit": "drawing",
-    "FootParameters": "large_fit",
-    "LargeFit": "large_fit",
+    "Fit": "values",
+    "FootParameters": "streaming",
     "FormatError": "errors",
-    "Frame": "contour",
-    "InitialCurve": "initial",
+    "InitialCurve": "paper",
     "InvalidInputError": "errors",
-    "LITERAL": "reading",
+    "LITERAL": "paper",
+    "LargeFit": "streaming",
     "MissingExtraError": "errors",
     "OrderError": "errors",
-    "Ordering": "ordering",
-    "Piece": "drawing",
-    "Reading": "reading",
-    "SENSIBLE": "reading",
-    "Shape": "contour",
+    "Ordering": "analysis",
+    "Piece": "values",
+    "Reading": "paper",
+    "SENSIBLE": "paper",
+    "Shape": "values",
     "ShapesplineError": "errors",
     "ShuffledPointsWarning": "errors",
     "SkippedContentWarning": "errors",
-    "Status": "drawing",
+    "Status": "values",
     "UnknownFormatError": "errors",
-    "compare": "comparison",
+    "ViewBox": "values",
+    "compare": "geometry",
     "fit_curve": "fitting",
-    "fit_large": "large",
-    "fit_many": "batch",
-    "fit_shape": "reconstruction",
-    "initial_curve": "initial",
-    "optimize": "optimization",
-    "order_points": "ordering",
+    "fit_large": "fitting",
+    "fit_many": "fitting",
+    "fit_shape": "fitting",
+    "initial_curve": "paper",
+    "optimize": "fitting",
+    "order_points": "analysis",
     "read": "formats",
     "write": "formats",
 }
@@ -92,7 +94,6 @@ __all__ = [
     "Fit",
     "FootParameters",
     "FormatError",
-    "Frame",
     "InitialCurve",
     "InvalidInputError",
     "LargeFit",
@@ -107,6 +108,7 @@ __all__ = [
     "SkippedContentWarning",
     "Status",
     "UnknownFormatError",
+    "ViewBox",
     "__version__",
     "compare",
     "fit_curve",

@@ -52,7 +52,7 @@ class FitFile:
         ss.write(target, drawing, **self.writing.given())
         picture = self.picture(source)
         if picture is not None:
-            from shapespline.plot import plot_fit
+            from shapespline.plotting import plot_fit
 
             plot_fit(drawing, picture)
         return Report(
@@ -98,7 +98,7 @@ class FitFile:
         """Raise unless the pictures can be written."""
         if self.plot is None:
             return
-        from shapespline.plot import check_picture
+        from shapespline.plotting import check_picture
 
         if self.many and not self.plot.is_dir():
             raise ss.InvalidInputError(

@@ -28,8 +28,7 @@ def paper(
     reading: options.Reading,
 ) -> None:
     """Run the published method on the longest outline of INPUT: figures and a table."""
-    from shapespline.paper import run_paper
-    from shapespline.paper_report import check_folder, write_report
+    from shapespline.paper import check_folder, run_paper, write_report
 
     check_folder(output)
     shape = reading.outlines(Path(source))

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.formats.pieces import closed_up, size_of
-from shapespline.joining import backwards
+from shapespline.geometry import backwards
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from shapespline.drawing import Piece
     from shapespline.typing import IntArray
+    from shapespline.values import Piece
 
 # Of the size of the drawing: ends nearer than this are meant to be one point.
 MEETING = 1e-6
@@ -31,7 +31,7 @@ def chained(runs: Sequence[Sequence[Piece]]) -> list[list[Piece]]:
 
     Examples
     --------
-    >>> from shapespline.formats.pieces import bezier
+    >>> from shapespline.formats import bezier
     >>> sides = [[bezier([(0, 0), (4, 0)])], [bezier([(0, 3), (0, 0)])], [bezier([(4, 0), (0, 3)])]]
     >>> [len(outline) for outline in chained(sides)]
     [3]

@@ -6,18 +6,17 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.contour import Contour, Shape
+from shapespline.analysis import order_points
 from shapespline.errors import FormatError
-from shapespline.exact import sampled
-from shapespline.nesting import parents_of
-from shapespline.ordering import order_points
+from shapespline.geometry import parents_of, sampled
+from shapespline.values import Contour, Shape
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from shapespline.drawing import Drawing
     from shapespline.typing import FloatArray
+    from shapespline.values import Drawing
 
 COMMENT = "#"
 

@@ -15,8 +15,8 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from shapespline.drawing import Drawing, Fit
     from shapespline.typing import FloatArray
+    from shapespline.values import Drawing, Fit
 
 # Of the box diagonal: what a cubic may deviate from a piece of degree 4 or more.
 CUBIC_TOLERANCE = 1e-6

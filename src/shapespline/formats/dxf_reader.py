@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from shapespline.errors import FormatError, SkippedContentWarning
-from shapespline.exact import Outlines
 from shapespline.formats.chains import chained
 from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import bezier, size_of
 from shapespline.formats.splines import spline_pieces
+from shapespline.geometry import Outlines
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from ezdxf.document import Drawing as Document
 
-    from shapespline.drawing import Piece
     from shapespline.typing import FloatArray
+    from shapespline.values import Piece
 
 # Each kind has attributes of its own.
 Entity: TypeAlias = Any

@@ -13,19 +13,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.arcs import arc_polyline
-from shapespline.drawing import Piece
 from shapespline.errors import InvalidInputError
 from shapespline.formats.entities import entities
-from shapespline.joining import joined
+from shapespline.geometry import arc_polyline, joined
+from shapespline.values import Piece
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ezdxf.layouts import Modelspace
 
-    from shapespline.curve import BSplineCurve
-    from shapespline.drawing import Drawing, Fit
+    from shapespline.values import BSplineCurve, Drawing, Fit
 
 # $INSUNITS; a drawing in another unit, or in pixels, is written without one.
 UNITS = {"in": 1, "ft": 2, "mi": 3, "mm": 4, "cm": 5, "m": 6, "km": 7, "mil": 9, "yd": 10,

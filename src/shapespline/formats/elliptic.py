@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.drawing import Piece
+from shapespline.values import Piece
 
 if TYPE_CHECKING:
     from shapespline.typing import ArrayLike

@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.curve import BSplineCurve
-from shapespline.drawing import CORNER_TURN, Piece
-from shapespline.joining import joined, turn_between
+from shapespline.geometry import joined, turn_between
+from shapespline.values import CORNER_TURN, BSplineCurve, Piece
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from shapespline.drawing import Fit
+    from shapespline.values import Fit
 
 
 class Entity(NamedTuple):

@@ -7,18 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.contour import Contour, Shape
 from shapespline.errors import FormatError
-from shapespline.exact import sampled
 from shapespline.formats.cubics import groups
-from shapespline.nesting import parents_of, signed_area
+from shapespline.geometry import parents_of, sampled, signed_area
+from shapespline.values import Contour, Shape
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from shapespline.drawing import Drawing, Fit
     from shapespline.typing import FloatArray
+    from shapespline.values import Drawing, Fit
 
 
 def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:

@@ -12,8 +12,8 @@ from shapespline.formats import occ
 from shapespline.units import MILLIMETRES
 
 if TYPE_CHECKING:
-    from shapespline.drawing import Drawing
-    from shapespline.exact import Outlines
+    from shapespline.geometry import Outlines
+    from shapespline.values import Drawing
 
 UNITS = {"mm": "MM", "cm": "CM", "m": "M", "in": "INCH", "ft": "FT", "um": "UM", "km": "KM"}
 # Written instead of the time: the same drawing gives the same bytes.

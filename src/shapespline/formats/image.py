@@ -8,18 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
-from shapespline.centerline import centerlines
 from shapespline.errors import FormatError
-from shapespline.trace import trace_image
+from shapespline.tracing import centerlines, trace_image
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from shapespline.channels import Channel
-    from shapespline.contour import Shape
-    from shapespline.trace import Polarity, Selection
+    from shapespline.tracing import Channel, Polarity, Selection
+    from shapespline.values import Shape
 
 # Told by content, not by ending. Pillow knows more, among them formats that start programs.
 CONTENTS = ("PNG", "JPEG", "TIFF", "BMP")

@@ -30,9 +30,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from shapespline.contour import Contour, Frame
-from shapespline.curve import BSplineCurve
-from shapespline.drawing import Drawing, Fit, Iteration, Piece, Status
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats.json_values import (
     checked_boolean,
@@ -46,7 +43,9 @@ from shapespline.formats.json_values import (
     checked_points,
     checked_string,
 )
+from shapespline.monitor import Iteration
 from shapespline.units import UNITS
+from shapespline.values import BSplineCurve, Contour, Drawing, Fit, Piece, Status, ViewBox
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -86,7 +85,7 @@ def encode(drawing: Drawing) -> bytes:
 
     Examples
     --------
-    >>> from shapespline.knots import clamped_knots
+    >>> from shapespline.values import clamped_knots
     >>> fit = Fit(
     ...     spline=BSplineCurve(clamped_knots(2, 1), [(0, 0), (8, 0)], degree=1),
     ...     contour=Contour([(0, 0), (8, 0)]), parameters=np.array([0.0, 1.0]),
@@ -257,8 +256,8 @@ def _drawing(document: object) -> Drawing:
         raise FormatError(f"fits and parents must be equally many, at least one, found {counts}")
     frame = fields["frame"]
     if frame is not None:
-        sides = checked_object(frame, "frame", Frame._fields)
-        frame = Frame(*(checked_number(sides[name], f"frame.{name}") for name in Frame._fields))
+        sides = checked_object(frame, "frame", ViewBox._fields)
+        frame = ViewBox(*(checked_number(sides[name], f"frame.{name}") for name in ViewBox._fields))
     unit = fields["unit"]
     if unit is not None and unit not in UNITS:
         raise FormatError(f"unit must be null or one of {', '.join(UNITS)}, found {unit!r}")

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.contour import Contour, Shape
+from shapespline.analysis import order_points
 from shapespline.errors import FormatError
 from shapespline.formats.csv import turned_over
-from shapespline.ordering import order_points
+from shapespline.values import Contour, Shape
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -13,18 +13,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.drawing import Piece
 from shapespline.errors import FormatError, MissingExtraError
-from shapespline.exact import Outlines
 from shapespline.formats.chains import chained
 from shapespline.formats.cubics import groups
 from shapespline.formats.entities import entities
+from shapespline.geometry import Outlines
+from shapespline.values import Piece
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from shapespline.drawing import Drawing, Fit
     from shapespline.formats.entities import Entity
+    from shapespline.values import Drawing, Fit
 
 # Of the largest coordinate: what counts as the plane z = 0, and how near the cubics come that stand
 # for arcs and other rational curves.

@@ -11,8 +11,8 @@ from shapespline.formats.cubics import as_cubics, groups, is_straight, turning_p
 from shapespline.units import MILLIMETRES
 
 if TYPE_CHECKING:
-    from shapespline.drawing import Drawing
     from shapespline.typing import FloatArray
+    from shapespline.values import Drawing
 
 # Of the longer side: the border, and the width of a stroke.
 MARGIN, STROKE = 0.02, 0.0025

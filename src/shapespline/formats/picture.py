@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image, ImageChops, ImageDraw
 
-from shapespline.arrays import whole_number
 from shapespline.errors import InvalidInputError
-from shapespline.exact import sampled
 from shapespline.formats.cubics import groups
+from shapespline.geometry import sampled
+from shapespline.validation import whole_number
 
 if TYPE_CHECKING:
-    from shapespline.drawing import Drawing
     from shapespline.typing import FloatArray
+    from shapespline.values import Drawing
 
 # Of the longer side: the border, and the width of a stroke.
 MARGIN, STROKE = 0.02, 0.004

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.drawing import Piece
+from shapespline.values import Piece
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

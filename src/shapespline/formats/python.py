@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from shapespline.drawing import Drawing, Fit
     from shapespline.typing import FloatArray
+    from shapespline.values import Drawing, Fit
 
 HEAD = '''"""Curves as B-splines: curves[i](u) are points, u from 0 to 1.
 

@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.drawing import Piece
 from shapespline.errors import FormatError, MissingExtraError
-from shapespline.exact import Outlines
 from shapespline.formats.chains import chained
 from shapespline.formats.entities import entities
+from shapespline.geometry import Outlines
+from shapespline.values import Piece
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from shapespline.drawing import Drawing
     from shapespline.formats.entities import Entity
     from shapespline.typing import FloatArray
+    from shapespline.values import Drawing
 
 # Rhino's names of units.
 UNITS = {

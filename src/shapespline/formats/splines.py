@@ -11,12 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.curve import BSplineCurve, clamped_ends
-from shapespline.drawing import Piece
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats.cubics import halves
 from shapespline.formats.pieces import bezier
-from shapespline.knots import check_degree
+from shapespline.values import BSplineCurve, Piece, check_degree, clamped_ends
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -16,8 +16,8 @@ from shapespline.units import MILLIMETRES
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from shapespline.drawing import Drawing
-    from shapespline.exact import Outlines
+    from shapespline.geometry import Outlines
+    from shapespline.values import Drawing
 
 # OpenCASCADE's names of the units that a STEP file may be in; others are written as millimetres.
 UNITS = {"um": "UM", "mm": "MM", "cm": "CM", "m": "M", "km": "KM", "in": "INCH", "ft": "FT"}

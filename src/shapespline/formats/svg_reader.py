@@ -15,10 +15,10 @@ from xml.etree import ElementTree
 import numpy as np
 
 from shapespline.errors import FormatError, SkippedContentWarning
-from shapespline.exact import Outlines
 from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import bezier, closed_up
 from shapespline.formats.svg_tree import prepared
+from shapespline.geometry import Outlines
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
     from svgelements import Arc, PathSegment, Shape
 
-    from shapespline.drawing import Piece
     from shapespline.typing import FloatArray
+    from shapespline.values import Piece
 
 UNPAINTED = ("none", "transparent")
 

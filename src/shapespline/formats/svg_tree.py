@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 from xml.parsers import expat
 
-from shapespline.contour import Frame
 from shapespline.errors import FormatError
 from shapespline.units import MILLIMETRES, PIXEL
+from shapespline.values import ViewBox
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -48,7 +48,7 @@ class Page:
         y runs down: turned up it is this minus y. None without a page.
     scale : float
         What coordinates are then multiplied with.
-    frame : Frame or None
+    frame : ViewBox or None
         The view box, turned and multiplied.
     unit : str
     skipped : tuple of str
@@ -58,7 +58,7 @@ class Page:
     root: Element
     turning_height: float | None
     scale: float
-    frame: Frame | None
+    frame: ViewBox | None
     unit: str
     skipped: tuple[str, ...]
 
@@ -83,7 +83,7 @@ def prepared(data: bytes) -> Page:
     for name in ("width", "height", "viewBox", "preserveAspectRatio", "x", "y"):
         plain.attrib.pop(name, None)
     if view_box is None and width is not None and height is not None:
-        view_box = Frame(0.0, 0.0, _pixels(*width), _pixels(*height))
+        view_box = ViewBox(0.0, 0.0, _pixels(*width), _pixels(*height))
     if view_box is None:
         return Page(plain, None, 1.0, None, PIXEL, tuple(skipped))
     plain.set("width", repr(view_box.width))
@@ -93,7 +93,7 @@ def prepared(data: bytes) -> Page:
         plain,
         2 * view_box.y + view_box.height,
         scale,
-        Frame(*(scale * side for side in view_box)),
+        ViewBox(*(scale * side for side in view_box)),
         unit,
         tuple(skipped),
     )
@@ -196,12 +196,12 @@ def _placed(use: Element, found: Element) -> Element:
     return group
 
 
-def _view_box(root: Element) -> Frame | None:
+def _view_box(root: Element) -> ViewBox | None:
     text = root.get("viewBox")
     if text is None:
         return None
     try:
-        box = Frame(*(float(number) for number in text.replace(",", " ").split()))
+        box = ViewBox(*(float(number) for number in text.replace(",", " ").split()))
     except (TypeError, ValueError):
         raise FormatError(f"viewBox must be four numbers, found {text!r}") from None
     if not all(map(math.isfinite, box)) or box.width <= 0 or box.height <= 0:
@@ -232,7 +232,7 @@ def _without_unit(text: str) -> str:
 
 
 def _scale(
-    view_box: Frame, width: tuple[float, str] | None, height: tuple[float, str] | None
+    view_box: ViewBox, width: tuple[float, str] | None, height: tuple[float, str] | None
 ) -> tuple[float, str]:
     """How much a unit of the view box is on paper, and in which unit; 1 pixel if not said."""
     known = [

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.arrays import is_number
-from shapespline.contour import Frame
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats.cubics import as_cubics, groups, is_straight, turning_points
 from shapespline.units import MILLIMETRES, PIXEL
+from shapespline.validation import is_number
+from shapespline.values import ViewBox
 
 if TYPE_CHECKING:
-    from shapespline.drawing import Drawing
     from shapespline.typing import FloatArray
+    from shapespline.values import Drawing
 
 # Units that CSS knows; the page of a drawing in another one is sized in millimetres.
 PAGE_UNITS = (PIXEL, "mm", "cm", "in", "pt", "pc", "Q")
@@ -28,7 +28,7 @@ class Placement(NamedTuple):
 
     x_shift: float
     y_top: float
-    view_box: Frame
+    view_box: ViewBox
 
     def __call__(self, points: FloatArray) -> FloatArray:
         """Points of the data as points of the file, shape (..., 2)."""
@@ -79,17 +79,17 @@ def encode(
 
     Examples
     --------
-    >>> from shapespline.contour import Contour
-    >>> from shapespline.curve import BSplineCurve
-    >>> from shapespline.drawing import Drawing, Fit, Status
-    >>> from shapespline.knots import clamped_knots
+    >>> from shapespline.values import Contour
+    >>> from shapespline.values import BSplineCurve
+    >>> from shapespline.values import Drawing, Fit, Status
+    >>> from shapespline.values import clamped_knots
     >>> curve = BSplineCurve(clamped_knots(4, 3), [(0, 0), (0, 4), (8, 4), (8, 0)], degree=3)
     >>> fit = Fit(
     ...     spline=curve, contour=Contour([(0, 0), (8, 0)]), parameters=np.array([0.0, 1.0]),
     ...     max_distance=0.0, rms_distance=0.0, hausdorff_distance=3.0, tolerance=3.0,
     ...     status=Status.KEPT, history=(), method="by hand",
     ... )
-    >>> text = encode(Drawing([fit], frame=Frame(0, 0, 8, 6))).decode()
+    >>> text = encode(Drawing([fit], frame=ViewBox(0, 0, 8, 6))).decode()
     >>> print(text.split(' d="')[1].split('"')[0])
     M0 6C0 2 8 2 8 6
     """
@@ -122,7 +122,7 @@ def encode(
 # Placement
 
 
-def _placement(frame: Frame | None, pieces: list[FloatArray], stroke_width: float) -> Placement:
+def _placement(frame: ViewBox | None, pieces: list[FloatArray], stroke_width: float) -> Placement:
     """Mirror within the frame, or move the bounding box of the curves to the origin."""
     if frame is not None:
         if not (frame.width > 0 and frame.height > 0 and np.isfinite(frame).all()):
@@ -134,7 +134,7 @@ def _placement(frame: Frame | None, pieces: list[FloatArray], stroke_width: floa
     margin = _rounded(MARGIN * longer) + stroke_width
     width, height = (high - low + 2 * margin).tolist()
     return Placement(
-        float(low[0]) - margin, float(high[1]) + margin, Frame(0.0, 0.0, width, height)
+        float(low[0]) - margin, float(high[1]) + margin, ViewBox(0.0, 0.0, width, height)
     )
 
 

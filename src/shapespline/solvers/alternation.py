@@ -81,8 +81,8 @@ class Alternation:
     Examples
     --------
     >>> import numpy as np
-    >>> from shapespline.solvers.iteration import minimize
-    >>> from shapespline.solvers.levenberg_marquardt import Proposal
+    >>> from shapespline.solvers import minimize
+    >>> from shapespline.solvers import Proposal
     >>> class Line:
     ...     def cost(self, x): return 0.5 * float((x[0] - 3.0) ** 2)
     ...     def projected(self, x): return x

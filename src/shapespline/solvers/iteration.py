@@ -210,7 +210,7 @@ def minimize(
     Examples
     --------
     >>> import numpy as np
-    >>> from shapespline.solvers.quasi_newton import make_solver
+    >>> from shapespline.solvers import make_solver
     >>> class Parabola:
     ...     def cost(self, x): return float(x @ x)
     ...     def cost_and_gradient(self, x): return float(x @ x), 2.0 * x

@@ -89,7 +89,7 @@ class LevenbergMarquardt:
     Examples
     --------
     >>> import numpy as np
-    >>> from shapespline.solvers.iteration import minimize
+    >>> from shapespline.solvers import minimize
     >>> class Sine:
     ...     def cost(self, x): return 0.5 * float(np.sin(x[0])) ** 2
     ...     def damped_step(self, x, damping):

@@ -1,0 +1,65 @@
+"""Analysis: what points tell before any fit."""
+
+from shapespline.analysis.corners import GENTLE_TURN, LEAST_TURN, find_corners
+from shapespline.analysis.cpda import Cpda, check_window, chord_to_point
+from shapespline.analysis.mirror import Mirror, find_mirror
+from shapespline.analysis.noise import noise_level
+from shapespline.analysis.normalization import (
+    LONGEST_CHORD,
+    MOST_SCATTER,
+    NormalizedContour,
+    canonical_reading,
+)
+from shapespline.analysis.outliers import find_outliers
+from shapespline.analysis.reconstruction.ordering import Ordering, looks_shuffled, order_points
+from shapespline.analysis.resolution import NOISE_BAND, resolution
+from shapespline.analysis.run_averages import (
+    WIDTHS,
+    Averages,
+    at_end,
+    averaged,
+    averages,
+    best_width,
+    joint,
+)
+from shapespline.analysis.shared_boundaries import shared_arcs
+from shapespline.analysis.straight_runs import (
+    FEWEST_STRAIGHT,
+    STRAIGHT_PART,
+    filled,
+    has_straight_runs,
+)
+
+__all__ = [
+    "FEWEST_STRAIGHT",
+    "GENTLE_TURN",
+    "LEAST_TURN",
+    "LONGEST_CHORD",
+    "MOST_SCATTER",
+    "NOISE_BAND",
+    "STRAIGHT_PART",
+    "WIDTHS",
+    "Averages",
+    "Cpda",
+    "Mirror",
+    "NormalizedContour",
+    "Ordering",
+    "at_end",
+    "averaged",
+    "averages",
+    "best_width",
+    "canonical_reading",
+    "check_window",
+    "chord_to_point",
+    "filled",
+    "find_corners",
+    "find_mirror",
+    "find_outliers",
+    "has_straight_runs",
+    "joint",
+    "looks_shuffled",
+    "noise_level",
+    "order_points",
+    "resolution",
+    "shared_arcs",
+]

@@ -1,0 +1,57 @@
+"""The noise of a contour: what local cubics cannot follow across the outline."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.validation import median
+
+if TYPE_CHECKING:
+    from shapespline.values import Contour
+
+# Points on each side of the middle of a local fit.
+HALF_WINDOW = 3
+# So many windows tell the median to 2 %; of more, every so many-th is looked at.
+MOST_WINDOWS = 5_000
+# Of fewer points nobody can tell noise from bends.
+FEWEST_POINTS = 64
+# A cubic fitted to a window: its slope in the middle, and what is left of every point.
+_POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
+_FIT = np.linalg.pinv(_POWERS)
+_SLOPE_AND_REST = np.column_stack([_FIT[-2], np.eye(len(_POWERS)) - _POWERS @ _FIT])
+# Median of a chi-squared variable with the 3 degrees of freedom that a cubic leaves of 7 points.
+_CHI_SQUARED_MEDIAN = 2.365974
+
+
+def noise_level(contour: Contour) -> float:
+    """Standard deviation of the points across the outline, data units.
+
+    A cubic in the index is fitted to every 7 neighbours; what is left of them is read across the
+    tangent of the cubic in the middle, so that uneven steps along the outline do not count. Under
+    normal noise the tangent and what is left are independent, and the square of what is left is
+    chi-squared: its median over all windows, which ignores corners, tells the deviation. Not less
+    than the accuracy that the contour is known to have; 0 for fewer than 64 points without one.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> points = np.column_stack([np.linspace(0, 10, 400), np.zeros(400)])
+    >>> points += np.random.default_rng(1).normal(0, 0.1, points.shape)
+    >>> bool(0.09 < noise_level(Contour(points, closed=False)) < 0.11)
+    True
+    """
+    known = contour.accuracy or 0.0
+    width = 2 * HALF_WINDOW + 1
+    if len(contour) < FEWEST_POINTS:
+        return known
+    n = len(contour)
+    first, n_windows = (-HALF_WINDOW, n) if contour.closed else (0, n - width + 1)
+    begins = np.arange(first, first + n_windows, max(1, n_windows // MOST_WINDOWS))
+    index = (begins[:, None] + np.arange(width)) % n
+    x, y = ((axis[index] - axis[0]) @ _SLOPE_AND_REST for axis in contour.points.T)
+    across = x[:, 1:] * y[:, :1] - y[:, 1:] * x[:, :1]
+    speed_sq = np.maximum(x[:, 0] ** 2 + y[:, 0] ** 2, np.finfo(float).tiny)
+    level_sq = median((across**2).sum(axis=1) / speed_sq) / _CHI_SQUARED_MEDIAN
+    return max(known, float(np.sqrt(level_sq)))

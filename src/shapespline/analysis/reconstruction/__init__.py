@@ -1,0 +1,1 @@
+"""Reconstruction: unordered points to outlines."""

@@ -1,0 +1,97 @@
+"""Straight runs of a contour: which parts of it were drawn as lines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.analysis.noise import noise_level
+from shapespline.validation import median
+from shapespline.values import Contour
+
+if TYPE_CHECKING:
+    from shapespline.typing import FloatArray, IntArray
+
+# So many points that spread across a line by no more than this part of the tolerance are a straight
+# run of the data, which one smooth spline would bend.
+FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1
+# A chord is a run, and not one of a row along an arc, if most of it stays one chord within a
+# fiftieth of the distance, where an arc makes seven and an inflection four. It is longer than some
+# tolerances.
+FINER, ONE_CHORD, LEAST_TOLERANCES = 0.02, 0.6, 10.0
+# An edge so many times as long as the median was drawn as a line, not sampled.
+LONG_EDGE = 8.0
+# Of bends sixteen times as much is left at twice the distance, of scatter as much.
+BEND_GROWTH = 4.0
+
+
+def filled(contour: Contour) -> Contour:
+    """The contour with points along edges far longer than most: those were drawn as lines.
+
+    Examples
+    --------
+    >>> x = np.append(np.linspace(0, 1, 50), 9.0)
+    >>> len(filled(Contour(np.column_stack([x, 0 * x]), closed=False)))
+    66
+    """
+    polyline = contour.polyline
+    steps = np.hypot(*np.diff(polyline, axis=0).T)
+    parts = np.where(steps > LONG_EDGE * median(steps), 2 * FEWEST_STRAIGHT, 1)
+    if (parts == 1).all():
+        return contour
+    begins = np.repeat(np.arange(len(steps)), parts)
+    share = np.concatenate([np.arange(count) / count for count in parts.tolist()])
+    along = np.diff(polyline, axis=0)[begins]
+    points = polyline[begins] + share[:, None] * along
+    if not contour.closed:
+        points = np.concatenate([points, polyline[-1:]])
+    return Contour.trusted(points, contour.closed, contour.accuracy)
+
+
+def has_straight_runs(contour: Contour, tolerance: float) -> bool:
+    """Whether some of the data are straight, or too noisy to tell.
+
+    Examples
+    --------
+    >>> side = np.linspace(0, 1, 20, endpoint=False)
+    >>> x = np.concatenate([side, 1 + 0 * side, 1 - side, 0 * side])
+    >>> has_straight_runs(Contour(np.column_stack([x, np.roll(x, 20)]), closed=True), 0.01)
+    True
+    """
+    contour = filled(contour)
+    width = STRAIGHT_PART * tolerance
+    if _is_noisy(contour, 0.5 * FINER * width):
+        return True
+    polyline = contour.polyline
+    fine = _chords(polyline, FINER * width)
+    coarse = fine[_chords(polyline[fine], width)]
+    lengths = _lengths(polyline, coarse)
+    longest = np.zeros(len(lengths))
+    inside = np.searchsorted(coarse, 0.5 * (fine[1:] + fine[:-1]), side="right") - 1
+    np.maximum.at(longest, inside, _lengths(polyline, fine))
+    runs = (np.diff(coarse) > FEWEST_STRAIGHT) & (longest >= ONE_CHORD * lengths)
+    return bool((runs & (lengths >= LEAST_TOLERANCES * tolerance)).any())
+
+
+def _is_noisy(contour: Contour, level: float) -> bool:
+    """Whether the points scatter by more than a level.
+
+    What a cubic leaves of few points on a smooth curve looks like scatter, but grows with the
+    fourth power of their distance, which scatter does not.
+    """
+    found = noise_level(contour)
+    if not found > level:
+        return False
+    half = Contour.trusted(contour.points[::2], contour.closed, contour.accuracy)
+    return noise_level(half) < BEND_GROWTH * found
+
+
+def _chords(polyline: FloatArray, distance: float) -> IntArray:
+    """Indices of vertices whose chords lie within a distance of the polyline."""
+    return np.array(_kernels.thinned(polyline, distance, np.inf, None), dtype=np.int64)
+
+
+def _lengths(polyline: FloatArray, vertices: IntArray) -> FloatArray:
+    return np.hypot(*np.diff(polyline[vertices], axis=0).T)

@@ -1,0 +1,1 @@
+"""Engines: each turns a problem into a curve; none knows another."""

@@ -1,0 +1,266 @@
+"""The least-squares problem in control points and location parameters.
+
+    minimise over P, t   1/2 sum_j w_j |C(t_j) - Q_j|^2                     (the paper's Eq. 3)
+
+as a function of one flat vector: the control points, x and y interleaved, then the parameters.
+Cost, gradient, Gauss-Newton diagonal and the Levenberg-Marquardt step are O(n) each, in the kernel.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.errors import InvalidInputError
+from shapespline.geometry import nondecreasing
+from shapespline.solvers import Proposal
+from shapespline.values import BSplineCurve
+
+if TYPE_CHECKING:
+    from shapespline.solvers import Metric
+    from shapespline.typing import FloatArray
+
+# Entries of the Gauss-Newton diagonal below this part of the largest are raised to it.
+DIAGONAL_FLOOR = 1e-12
+ENDS = ("interpolated", "fitted", "free")
+# Newton steps of a foot point between two steps of the control points.
+_FOOT_STEPS = 3
+# The kernel's names for which parameters stay.
+_HOLD_ENDS, _HOLD_ALL = 1, 2
+
+
+class CurveProblem:
+    """Data, knots and weights; what moves is the vector given to each method.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        Data, C-contiguous float64.
+    template : BSplineCurve
+        Gives knots, degree and number of control points; its control points are the start.
+    weights : ndarray, shape (n,), optional
+        One positive weight per point.
+    ends : {"interpolated", "fitted", "free"}
+        Of an open curve. The paper leaves everything free; then the ends may fly. "fitted" holds
+        the first and last parameter, "interpolated" the first and last control point as well.
+    stray_weight : float
+        Weight, relative to that of a data point, of residuals that hold the curve to the data
+        polyline where neighbours lie far apart on it; 0 is the plain problem.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> line = BSplineCurve([0, 0, 1, 1], [(0, 0), (2, 0)], degree=1)
+    >>> problem = CurveProblem(np.array([[0.0, 0], [1, 1], [2, 0]]), line)
+    >>> problem.cost(problem.pack(line.control_points, np.array([0, 0.5, 1])))
+    0.5
+    """
+
+    def __init__(
+        self,
+        points: FloatArray,
+        template: BSplineCurve,
+        weights: FloatArray | None = None,
+        *,
+        ends: str = "free",
+        stray_weight: float = 0.0,
+    ) -> None:
+        if ends not in ENDS:
+            raise InvalidInputError(f"ends must be one of {', '.join(ENDS)}, got {ends!r}")
+        if not 0 <= stray_weight < np.inf:
+            raise InvalidInputError(
+                f"stray_weight must be 0 or a positive number, got {stray_weight!r}; try 0.1"
+            )
+        if ends != "free" and template.periodic:
+            raise InvalidInputError("ends must be 'free' for a periodic curve: it has none")
+        self.points = points
+        self.template = template
+        self.weights = weights
+        self.ends = ends
+        self.stray_weight = stray_weight
+        self._split = 2 * template.n_control_points
+
+    def pack(self, control_points: FloatArray, parameters: FloatArray) -> FloatArray:
+        """Control points (m, 2) and parameters (n,) as one vector."""
+        return np.concatenate([control_points.ravel(), parameters])
+
+    def unpack(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Views of the control points (m, 2) and the parameters (n,) in a vector."""
+        return x[: self._split].reshape(-1, 2), x[self._split :]
+
+    def curve(self, x: FloatArray) -> BSplineCurve:
+        """The curve that a vector stands for."""
+        template = self.template
+        return BSplineCurve(template.knots, self.unpack(x)[0], template.degree, template.periodic)
+
+    def cost(self, x: FloatArray) -> float:
+        """Half the weighted sum of squared residuals."""
+        control_points, parameters = self.unpack(x)
+        return _kernels.cost(
+            *self._knots,
+            control_points,
+            self.points,
+            parameters,
+            self.weights,
+            self.stray_weight,
+        )
+
+    def cost_and_gradient(self, x: FloatArray) -> tuple[float, FloatArray]:
+        """Cost and its gradient; zero for what is fixed."""
+        control_points, parameters = self.unpack(x)
+        gradient = np.empty_like(x)
+        cost = _kernels.cost_and_gradient(
+            *self._knots,
+            control_points,
+            self.points,
+            parameters,
+            self.weights,
+            *self._fixed,
+            self.stray_weight,
+            *self.unpack(gradient),
+        )
+        return cost, gradient
+
+    def scale(self, x: FloatArray) -> FloatArray:
+        """Gauss-Newton diagonal of the Hessian, each block floored at 1e-12 of its maximum.
+
+        ``sum_j w_j N_i(t_j)^2`` for both coordinates of P_i, ``w_j |C'(t_j)|^2`` for t_j.
+        """
+        control_points, parameters = self.unpack(x)
+        diagonal = np.empty_like(x)
+        of_control_points = np.empty(len(control_points))
+        of_parameters = diagonal[self._split :]
+        _kernels.gauss_newton_diagonal(
+            *self._knots,
+            control_points,
+            self.points,
+            parameters,
+            self.weights,
+            of_control_points,
+            of_parameters,
+        )
+        for block in (of_control_points, of_parameters):
+            largest = float(block.max())
+            np.maximum(block, DIAGONAL_FLOOR * largest if largest > 0 else 1.0, out=block)
+        diagonal[: self._split] = np.repeat(of_control_points, 2)
+        return diagonal
+
+    def damped_step(self, x: FloatArray, damping: float) -> Proposal | None:
+        """Levenberg-Marquardt step with the parameters eliminated; None if it has no solution.
+
+        The trial parameters are put back into data order: a trial that needs it is judged by its
+        true cost like any other.
+        """
+        control_points, parameters = self.unpack(x)
+        step = np.empty_like(x)
+        solved, cost, predicted, gradient_norm = _kernels.damped_step(
+            *self._knots,
+            control_points,
+            self.points,
+            parameters,
+            self.weights,
+            *self._fixed,
+            self.stray_weight,
+            damping,
+            *self.unpack(step),
+        )
+        if not solved:
+            return None
+        step += x
+        trial = step[self._split :]
+        begin, end = self.template.domain
+        if self.ends != "free":
+            np.clip(trial, parameters[0], parameters[-1], out=trial)
+        trial[:] = nondecreasing(trial, end - begin if self.template.periodic else None)
+        return Proposal(step, cost - predicted, gradient_norm)
+
+    def metric_step(self, x: FloatArray, metric: Metric, damping: float) -> Proposal | None:
+        """Control points that a quadratic stand-in for the squared distances asks for.
+
+        The parameters stay: `projected` finds them. None if the system has no solution.
+        """
+        control_points, parameters = self.unpack(x)
+        step = np.zeros_like(x)
+        solved, cost, predicted, gradient_norm = _kernels.damped_step(
+            *self._knots,
+            control_points,
+            self.points,
+            parameters,
+            self.weights,
+            *self._fixed,
+            self.stray_weight,
+            damping,
+            *self.unpack(step),
+            self._along(x, metric),
+        )
+        if not solved:
+            return None
+        step[self._split :] = 0.0
+        step += x
+        return Proposal(step, cost - predicted, gradient_norm)
+
+    def _along(self, x: FloatArray, metric: Metric) -> FloatArray:
+        """Part of each squared residual along the tangent that a metric counts, shape (n,).
+
+        All of it for the point distance, none for the tangent distance; for the squared distance
+        d / (d + rho) where the point lies on the outer side of the curve, d away from it and with
+        radius of curvature rho there, and none on the inner side (Wang et al., Eq. 16).
+        """
+        parameters = self.unpack(x)[1]
+        if metric != "squared":
+            return np.full(len(parameters), 1.0 if metric == "point" else 0.0)
+        curve = self.curve(x)
+        away = self.points - curve(parameters)
+        velocity, acceleration = curve(parameters, derivative=1), curve(parameters, derivative=2)
+        bend = velocity[:, 0] * acceleration[:, 1] - velocity[:, 1] * acceleration[:, 0]
+        side = velocity[:, 0] * away[:, 1] - velocity[:, 1] * away[:, 0]
+        speed = np.hypot(velocity[:, 0], velocity[:, 1])
+        # d / rho = |away| |bend| / speed^3; side * bend < 0 on the outer side.
+        ratio = np.hypot(away[:, 0], away[:, 1]) * np.abs(bend)
+        total = ratio + speed**3
+        outer = (side * bend < 0.0) & (total > 0.0)
+        return np.divide(ratio, total, out=np.zeros_like(ratio), where=outer)
+
+    def projected(self, x: FloatArray) -> FloatArray:
+        """The vector with every parameter moved to a foot point near it; no residual grows."""
+        moved = x.copy()
+        control_points, parameters = self.unpack(moved)
+        ends = parameters[[0, -1]]
+        _kernels.near_feet(*self._knots, control_points, self.points, _FOOT_STEPS, parameters)
+        if self.ends != "free":
+            parameters[[0, -1]] = ends
+        return moved
+
+    def control_points_for(self, parameters: FloatArray, guess: FloatArray) -> FloatArray:
+        """Least-squares control points with the parameters held, shape (m, 2).
+
+        Control points that no data hold stay near their guess: the step from there is damped by
+        a relative 1e-9, which the others do not notice.
+        """
+        control_points, unused = np.empty_like(guess), np.empty_like(parameters)
+        solved, *_ = _kernels.damped_step(
+            *self._knots,
+            guess,
+            self.points,
+            parameters,
+            self.weights,
+            _HOLD_ALL,
+            self.ends == "interpolated",
+            0.0,
+            1e-9,
+            control_points,
+            unused,
+        )
+        return guess + control_points if solved else guess
+
+    @property
+    def _fixed(self) -> tuple[int, bool]:
+        """Which parameters are held, and whether the end control points are."""
+        return _HOLD_ENDS if self.ends != "free" else 0, self.ends == "interpolated"
+
+    @property
+    def _knots(self) -> tuple[FloatArray, int, bool]:
+        template = self.template
+        return template.knots, template.degree, template.periodic

@@ -1,0 +1,1 @@
+"""Starts of a given size: where knots and parameters begin."""

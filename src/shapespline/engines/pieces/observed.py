@@ -1,0 +1,62 @@
+"""Pieces that follow a smoothed outline, then fitted to the noisy points by least squares."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.analysis import NormalizedContour
+from shapespline.engines.pieces.problem import PiecesProblem
+from shapespline.engines.pieces.search import SEARCHES, PiecesSolver
+from shapespline.monitor import Monitor
+
+if TYPE_CHECKING:
+    from shapespline.engines.pieces.search import Effort
+    from shapespline.typing import FloatArray, IntArray
+    from shapespline.values import Contour, Piece
+from shapespline.engines.pieces.engine import SECTION_DEGREE
+
+
+def fit_observed(
+    outline: Contour,
+    observed: FloatArray,
+    tolerance: float,
+    noise: float,
+    *,
+    corners: IntArray | None,
+    degree: int = 3,
+    effort: Effort = "balanced",
+) -> tuple[Piece, ...]:
+    """Pieces that follow a smoothed outline within a tolerance, then fitted to what was observed.
+
+    Parameters
+    ----------
+    outline : Contour
+        The smoothed outline, in the order and unit of a `NormalizedContour`.
+    observed : ndarray, shape (n, 2)
+        The noisy points, index for index.
+    tolerance : float
+        Between outline and pieces, before these are fitted to the points by least squares.
+    noise : float
+        Standard deviation of the points.
+    corners : ndarray or None
+        Indices of the corners that are kept; None lets the fit make and round them.
+    degree, effort
+        See `fit_pieces`.
+    """
+    faithful = corners is not None
+    task = PiecesSolver(
+        PiecesProblem(
+            NormalizedContour.of_working(outline),
+            tolerance,
+            np.empty(0, dtype=np.int64) if corners is None else corners,
+            np.zeros(len(outline), dtype=np.int64),
+        ),
+        min(degree, SECTION_DEGREE),
+        faithful,
+        faithful,
+        Monitor(),
+    )
+    runs = [task.run(tolerance, search, observed, noise) for search in SEARCHES[effort]]
+    return min(runs, key=lambda pieces: sum(len(p.control_points) - 1 for p in pieces))

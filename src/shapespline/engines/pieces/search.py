@@ -1,0 +1,153 @@
+"""One run of the structured search: its arrays in, pieces with exact tangents out."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.analysis import LEAST_TURN
+from shapespline.engines.pieces.end_tangents import stubbed, without_stubs
+from shapespline.engines.pieces.tangents import aligned
+from shapespline.values import Piece
+
+if TYPE_CHECKING:
+    from shapespline.engines.pieces.problem import PiecesProblem
+    from shapespline.monitor import Monitor
+    from shapespline.typing import FloatArray
+
+# Candidate nodes on a whole outline, whatever the stride.
+LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
+# Pieces shorter than this part of the curve are roundings.
+SPECK = 1e-12
+# A corner that the fit turns by less than this part of what makes a corner is given up.
+RELEASE = 0.7
+# Control points may move by this part of the tolerance to make a tangent exact: it is less than
+# what the first aim leaves.
+LARGEST_MOVE = 0.002
+# The same for a fit to noisy points, in standard deviations of the noise.
+OBSERVED_MOVE = 0.1
+# What the kernel is told about the joint at a point, summed.
+CORNER, PINNED, AFTER_STUB, BEFORE_STUB = 1, 2, 4, 8
+
+Effort = Literal["fast", "balanced", "smallest"]
+
+
+class SearchBudget(NamedTuple):
+    """What one run of the kernel may do.
+
+    ``stride`` is the distance of candidate nodes in points, but more of them stand where the
+    polyline through them would leave the data by ``resolution`` tolerances. How far sections reach
+    is found from one in ``every`` of them; ``passes`` is how often moves are tried. A ``thorough``
+    search tries bold ones, too, takes more neighbours along, and begins again where smooth joints
+    took points.
+    """
+
+    stride: int
+    resolution: float
+    every: int
+    passes: int
+    thorough: bool
+
+
+# The reduction is a greedy search, and where it starts is worth some percent: the best of several
+# runs on different candidates is taken.
+SEARCHES: dict[Effort, tuple[SearchBudget, ...]] = {
+    "fast": (SearchBudget(12, 0.8, 5, 1, thorough=False),),
+    "balanced": (SearchBudget(12, 0.4, 1, 6, thorough=True),),
+    "smallest": tuple(
+        SearchBudget(stride, part, 1, 6, thorough=True)
+        for stride in (3, 6, 12)
+        for part in (0.15, 0.25, 0.4)
+    ),
+}
+
+
+class PiecesSolver(NamedTuple):
+    """What stays the same over the runs on one outline.
+
+    Corners are candidate nodes always and nodes if they are kept; ``smooth`` makes other joints
+    tangent, where the outline is gentle at the price of some more points.
+    """
+
+    outline: PiecesProblem
+    largest_degree: int
+    keep_corners: bool
+    smooth: bool
+    monitor: Monitor
+
+    def run(
+        self,
+        tolerance: float,
+        search: SearchBudget,
+        observed: FloatArray | None = None,
+        noise: float = 0.0,
+    ) -> tuple[Piece, ...]:
+        """One run of the kernel, in the end a least-squares fit to what was observed.
+
+        No pieces if it was ended before there were any.
+        """
+        outline = stubbed(self.outline)
+        contour = outline.frame.contour
+        n = len(contour)
+        joints, forced = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
+        forced[outline.corners] = 1
+        if self.keep_corners:
+            joints[outline.corners] += CORNER
+        joints[outline.held.through] += PINNED
+        joints[outline.held.after_stub] += AFTER_STUB
+        joints[outline.held.before_stub] += BEFORE_STUB
+        forced[joints > 0] = 1
+        degrees, counts, knots, coordinates = _kernels.fit_sections(
+            contour.points,
+            contour.closed,
+            joints,
+            forced,
+            outline.gentle,
+            max(min(search.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
+            search.resolution * tolerance,
+            search.every,
+            tolerance,
+            self.largest_degree,
+            self.smooth,
+            outline.held.ends,
+            RELEASE * LEAST_TURN,
+            search.passes,
+            search.thorough,
+            self.monitor.ends,
+            observed,
+            noise,
+        )
+        pieces = _unpacked(degrees, counts, np.array(knots), np.array(coordinates))
+        if self.smooth and pieces:
+            largest_move = LARGEST_MOVE * tolerance if observed is None else OBSERVED_MOVE * noise
+            pieces = aligned(pieces, largest_move, closed=contour.closed)
+        return without_stubs(pieces, self.outline)
+
+
+def _unpacked(
+    degrees: list[int], counts: list[int], knots: FloatArray, coordinates: FloatArray
+) -> tuple[Piece, ...]:
+    """Pieces from the kernel's arrays end to end."""
+    pieces = []
+    k = m = 0
+    points = coordinates.reshape(-1, 2)
+    for degree, count in zip(degrees, counts, strict=True):
+        inner = count - degree - 1
+        kind = "line" if degree == 1 else "bezier" if inner == 0 else "spline"
+        pieces.append(Piece(kind, degree, knots[k : k + count + degree + 1], points[m : m + count]))
+        k, m = k + count + degree + 1, m + count
+    return _without_specks(pieces)
+
+
+def _without_specks(pieces: list[Piece]) -> tuple[Piece, ...]:
+    """The pieces but for those of next to no length, whose neighbours then meet exactly."""
+    lengths = [piece.polygon_length for piece in pieces]
+    least = SPECK * sum(lengths)
+    kept = [p for p, length in zip(pieces, lengths, strict=True) if length > least]
+    if len(kept) < len(pieces):
+        for before, after in pairwise(kept):
+            after.control_points[0] = before.control_points[-1]
+    return tuple(kept)

@@ -1,0 +1,71 @@
+"""Fairness of a single spline: even knots, no near-cusp, no crossing that the data have not."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+
+if TYPE_CHECKING:
+    from shapespline.values import BSplineCurve, Contour
+# Product rule: largest over smallest knot gap, slowest over median speed.
+GAP_RATIO, SPEED_RATIO = 1000.0, 0.05
+
+
+class RuleReport(NamedTuple):
+    """What the product rule asks about, measured on an exported curve.
+
+    ``gap_ratio`` is the largest over the smallest non-zero knot gap, ``speed_ratio`` the slowest
+    speed over its median (both with respect to the parameter, knots of multiplicity >= degree left
+    out), ``n_crossings`` and ``n_data_crossings`` count self-crossings of curve and data polyline.
+    """
+
+    gap_ratio: float
+    speed_ratio: float
+    n_crossings: int
+    n_data_crossings: int
+
+    @property
+    def kept(self) -> bool:
+        """Whether the curve is fit for use."""
+        return (
+            self.gap_ratio <= GAP_RATIO * (1 + 1e-9)
+            and self.speed_ratio >= SPEED_RATIO * (1 - 1e-9)
+            and self.n_crossings <= self.n_data_crossings
+        )
+
+
+def rule_report(curve: BSplineCurve, contour: Contour) -> RuleReport:
+    """What the product rule asks about, from dense samples of every span.
+
+    Notes
+    -----
+    64 samples a span: not a rigorous bound.
+    """
+    breaks = curve.breakpoints
+    gaps = np.diff(breaks)
+    share = (np.arange(64) + 0.5) / 64
+    u = (breaks[:-1, None] + gaps[:, None] * share).ravel()
+    velocity = curve(u, derivative=1)
+    speed = np.hypot(velocity[:, 0], velocity[:, 1])
+    order = np.argsort(speed, kind="stable")
+    weight = np.cumsum(np.repeat(gaps / 64, 64)[order])
+    median = float(speed[order][np.searchsorted(weight, 0.5 * weight[-1])])
+    inside = curve.knots[curve.degree : len(curve.knots) - curve.degree]
+    corners = np.array([b for b in breaks if np.count_nonzero(inside == b) >= curve.degree])
+    away = np.ones(len(u), dtype=bool)
+    width = np.repeat(gaps, 64)
+    for corner in corners:
+        away &= np.abs(u - corner) > 0.05 * width
+    slowest = float(speed[away].min()) if away.any() else median
+    vertices = np.concatenate([curve(u), curve(u[:1] if curve.periodic else breaks[-1:])])
+    if not curve.periodic:
+        vertices = np.concatenate([curve(breaks[:1]), vertices])
+    return RuleReport(
+        float(gaps.max() / gaps.min()),
+        slowest / median if median > 0 else 0.0,
+        _kernels.count_crossings(np.ascontiguousarray(vertices)),
+        _kernels.count_crossings(np.ascontiguousarray(contour.polyline)),
+    )

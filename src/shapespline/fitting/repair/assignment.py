@@ -1,0 +1,217 @@
+"""Pieces of a curve and the points that each stands for, along the trail of the data."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.geometry import chords, nearest
+from shapespline.values import BSplineCurve, Piece
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from shapespline.typing import FloatArray
+    from shapespline.values import Contour, Fit
+
+# Curves are looked at as polylines within this part of their tolerance.
+SAMPLING_PART = 0.02
+# A node lies between two of the points whose arc length is this near to its own, in parts of the
+# piece before it and in tolerances.
+ALONG, TOLERANCES = 0.3, 4.0
+
+
+class DataRun(NamedTuple):
+    """Points in their order, and how far along their contour each is, past its end and on."""
+
+    points: FloatArray
+    along: FloatArray
+
+    def part(self, begin: int, end: int) -> DataRun:
+        """The points from one up to another."""
+        return DataRun(self.points[begin:end], self.along[begin:end])
+
+    def turned(self, first: int, length: float) -> DataRun:
+        """The trail of a closed contour of this length from another first point on."""
+        along = np.concatenate([self.along[first:], self.along[:first] + length])
+        return DataRun(np.roll(self.points, -first, axis=0), along)
+
+
+class AssignedPiece(NamedTuple):
+    """A piece, it as a polyline, and the points ``begin`` up to ``end`` that it stands for."""
+
+    piece: Piece
+    line: FloatArray
+    begin: int
+    end: int
+
+    def shifted(self, by: int) -> AssignedPiece:
+        """The part where its points come later."""
+        return self._replace(begin=self.begin + by, end=self.end + by)
+
+
+class PieceAssignment(NamedTuple):
+    """The parts of a fit, end to end along the trail of its data, and which fit it is."""
+
+    owner: int
+    fit: Fit
+    trail: DataRun
+    parts: tuple[AssignedPiece, ...]
+
+    @classmethod
+    def of(cls, owner: int, fit: Fit) -> PieceAssignment:
+        """The row of a fit; of a closed one from its longest piece on."""
+        pieces, contour = pieces_of(fit), fit.contour
+        trail = DataRun(contour.points, contour.arc_length[: len(contour)])
+        if contour.closed:
+            lengths = [_length(_chords(piece, fit.tolerance)) for piece in pieces]
+            longest = int(np.argmax(lengths))
+            pieces = pieces[longest:] + pieces[:longest]
+            share = lengths[longest] / sum(lengths)
+            begin = _begin(contour, curve_of(pieces[0]), share, fit.tolerance)
+            trail = trail.turned(begin, contour.length)
+        return cls(owner, fit, trail, located(trail, pieces, fit.tolerance))
+
+    @property
+    def line(self) -> FloatArray:
+        """All pieces as one polyline."""
+        return np.concatenate([*(part.line[:-1] for part in self.parts), self.parts[-1].line[-1:]])
+
+    def turned(self, first: int) -> PieceAssignment:
+        """The row of a closed fit from another part on."""
+        begin, count = self.parts[first].begin, len(self.trail.points)
+        trail = self.trail.turned(begin, self.fit.contour.length)
+        ahead = [part.shifted(-begin) for part in self.parts[first:]]
+        rest = [part.shifted(count - begin) for part in self.parts[:first]]
+        return self._replace(trail=trail, parts=(*ahead, *rest))
+
+
+def curve_of(piece: Piece) -> BSplineCurve:
+    """A piece as a curve."""
+    return BSplineCurve(piece.knots, piece.control_points, piece.degree)
+
+
+def pieces_of(fit: Fit) -> tuple[Piece, ...]:
+    """The pieces of a fit; of a closed one that has none the Beziers of its spline."""
+    if fit.sections:
+        return fit.sections
+    spline = fit.spline
+    if not fit.closed:
+        kind = "bezier" if len(spline.control_points) == fit.degree + 1 else "spline"
+        return (Piece(kind, fit.degree, spline.knots, spline.control_points),)
+    knots = np.repeat([0.0, 1.0], fit.degree + 1)
+    beziers = spline.beziers().points
+    return tuple(Piece("bezier", fit.degree, knots, points.copy()) for points in beziers)
+
+
+def shares_of(x: FloatArray, y: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
+    """Where on segments (u, v) the points nearest to others are, in parts of the segments.
+
+    The others are (x, y) from where the segments begin.
+    """
+    return np.clip((x * u + y * v) / (u * u + v * v), 0.0, 1.0)
+
+
+def located(
+    trail: DataRun, pieces: Sequence[Piece], tolerance: float, first: int = 0
+) -> tuple[AssignedPiece, ...]:
+    """Pieces with the points between their nodes, of a trail that begins with point ``first``.
+
+    Nodes are looked for along the arc lengths of both.
+    """
+    curves = [curve_of(piece) for piece in pieces]
+    lines = [_chords(piece, tolerance) for piece in pieces]
+    lengths = np.array([_length(line) for line in lines])
+    count = len(trail.along)
+    if count:
+        lengths *= (trail.along[-1] - trail.along[0]) / lengths.sum()
+    cuts = [0]
+    for (before, after), length in zip(pairwise(curves), lengths[:-1], strict=True):
+        low, high = _window(trail, cuts[-1], length, after.control_points[0], tolerance)
+        cuts.append(low + _cut(before, after, trail.points[low:high], tolerance))
+    cuts.append(count)
+    return tuple(
+        AssignedPiece(piece, line, first + i, first + k)
+        for piece, line, (i, k) in zip(pieces, lines, pairwise(cuts), strict=True)
+    )
+
+
+def _chords(piece: Piece, tolerance: float) -> FloatArray:
+    """A piece as a polyline."""
+    return chords(curve_of(piece), SAMPLING_PART * tolerance)[0]
+
+
+def _length(line: FloatArray) -> float:
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
+
+
+def _begin(contour: Contour, curve: BSplineCurve, share: float, tolerance: float) -> int:
+    """The first of a closed contour's points that goes with a curve along a share of it.
+
+    Across a slit another place may be as near to where the curve begins, but the points after that
+    do not run along the curve.
+    """
+    lost = nearest(curve, contour.points).distances_sq > tolerance**2
+    n_lost = np.concatenate([[0], np.cumsum(np.tile(lost, 2))])
+    along = contour.arc_length[:-1]
+    ahead = along + 0.5 * share * contour.length
+    ends = np.searchsorted(np.concatenate([along, along + contour.length]), ahead)
+    lost_ahead = n_lost[ends] - n_lost[: len(contour)]
+    # By place of the segment before each point.
+    distances_sq = np.roll(_distances_sq(curve.control_points[0], contour.polyline), 1)
+    return int(np.lexsort((distances_sq, lost_ahead))[0])
+
+
+def _window(
+    trail: DataRun, begin: int, length: float, node: FloatArray, tolerance: float
+) -> tuple[int, int]:
+    """The points (low, high) among which a piece from one of them on, so long, ends at a node.
+
+    A curve within the tolerance is shorter than data that scatter: the points are looked for
+    farther away until some of them are near the node.
+    """
+    count = len(trail.along)
+    windows: list[tuple[int, int]] = []
+    if not count:
+        return 0, 0
+    target = trail.along[min(begin, count - 1)] + length
+    reach = ALONG * length + TOLERANCES * tolerance
+    while True:
+        at = np.searchsorted(trail.along, [target - reach, target + reach])
+        low, high = np.maximum(at, begin).tolist()
+        windows.append((low, high))
+        polyline = trail.points[max(low - 1, 0) : high + 1]
+        if len(polyline) > 1 and _distances_sq(node, polyline).min() <= tolerance**2:
+            return low, high
+        if low == begin and high == count:
+            return windows[0]
+        reach *= 2.0
+
+
+def _cut(before: BSplineCurve, after: BSplineCurve, points: FloatArray, tolerance: float) -> int:
+    """How many of some points go with the first of two curves: the fewest too far from their own.
+
+    Where data lie over themselves the nearest place to the node may be another; of cuts that are
+    as good the nearest to the node is taken.
+    """
+    if not len(points):
+        return 0
+    lost = [nearest(curve, points).distances_sq > tolerance**2 for curve in (before, after)]
+    n_lost = np.concatenate([[0], np.cumsum(lost[0].astype(int) - lost[1])])
+    fewest = np.flatnonzero(n_lost == n_lost.min())
+    node = _behind(after.control_points[0], points)
+    return int(fewest[np.abs(fewest - node).argmin()])
+
+
+def _behind(node: FloatArray, polyline: FloatArray) -> int:
+    """The end of the segment of a polyline that is nearest to a node."""
+    return int(_distances_sq(node, polyline).argmin()) + 1 if len(polyline) > 1 else 0
+
+
+def _distances_sq(node: FloatArray, polyline: FloatArray) -> FloatArray:
+    """Squared distances of a node from the segments of a polyline."""
+    begins, vectors = polyline[:-1], np.diff(polyline, axis=0)
+    feet = begins + shares_of(*(node - begins).T, *vectors.T)[:, None] * vectors
+    return np.asarray(((feet - node) ** 2).sum(axis=1))

@@ -1,0 +1,206 @@
+"""Curves that cross where their data do not: the pieces that cross are fitted again.
+
+A slit that is narrower than the tolerance closes when both of its sides may move by it. A closer
+fit of everything would keep it open at the price of points everywhere; here only the pieces beside
+it are fitted again, between their nodes and with their tangents, to points that were moved from the
+other side (`slits`); where that does not part them, to their own points closer and closer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.engines.pieces import through_all
+from shapespline.fitting.repair.assignment import (
+    SAMPLING_PART,
+    AssignedPiece,
+    PieceAssignment,
+    curve_of,
+)
+from shapespline.fitting.repair.clearance import Sides, moved
+from shapespline.fitting.repair.refit import (
+    Window,
+    fitted_again,
+    turned_apart,
+    verified_row,
+    windows_around,
+)
+from shapespline.fitting.verify import verified_fit
+from shapespline.geometry import chords, crossing_pairs, joined, nearest, self_crossings
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from shapespline.fitting.repair.assignment import DataRun
+    from shapespline.fitting.repair.refit import Refit
+    from shapespline.typing import FloatArray
+    from shapespline.values import Contour, Fit
+
+
+class Step(NamedTuple):
+    """How pieces that cross are fitted again.
+
+    ``within`` is the part of the tolerance; ``beside`` how many neighbours go with each piece;
+    ``moved`` whether points move by the rest of the tolerance.
+    """
+
+    within: float
+    beside: int
+    moved: bool
+
+
+# Where the pieces alone are not enough a node is to blame, which goes with both of its pieces. The
+# last two follow the points as they came, closer.
+STEPS = (
+    Step(3 / 4, 0, True),
+    Step(3 / 4, 1, True),
+    Step(1 / 2, 1, True),
+    Step(1 / 4, 1, True),
+    Step(1 / 8, 1, False),
+    Step(1 / 32, 1, False),
+)
+# Searches that follow the points. What was estimated from noisy ones would follow their noise.
+FOLLOWING = ("sections", "removal")
+CROSSES = "it crosses a curve where the data do not"
+
+
+def uncrossed(contours: Sequence[Contour], fits: Sequence[Fit], refit: Refit) -> list[Fit]:
+    """Fits whose curves cross no more than their data, as far as other pieces bring that about.
+
+    ``refit`` is that of `fitted_again`. Of the rows tried the one with the fewest parts that cross
+    is taken. Fits that cross after all say so in their status.
+    """
+    lines = [_line(fit) for fit in fits]
+    pairs = _new_crossings(contours, lines)
+    if not pairs:
+        return list(fits)
+    sides = Sides.of([fit.contour for fit in fits])
+    begun: dict[int, PieceAssignment] = {}
+    rows: dict[int, PieceAssignment] = {}
+    best: dict[int, tuple[int, PieceAssignment]] = {}
+    for step in (*STEPS, None):
+        for owner in {owner for pair in pairs for owner in pair} - rows.keys():
+            rows[owner] = begun[owner] = PieceAssignment.of(owner, fits[owner])
+        found = _crossing_parts(pairs, rows)
+        for owner, row in rows.items():
+            count = len(found.get(owner, ()))
+            if owner not in best or count < best[owner][0]:
+                best[owner] = count, row
+        owners = [owner for owner in found if fits[owner].method in FOLLOWING]
+        if step is None or not owners:
+            break
+        for owner in owners:
+            rows[owner] = _fitted_again(rows[owner], found[owner], step, sides, refit)
+            lines[owner] = rows[owner].line
+        pairs = _new_crossings(contours, lines)
+    result = list(fits)
+    for owner, (_, row) in best.items():
+        if row is not begun[owner]:
+            result[owner] = _no_larger_than_data(verified_row(row))
+        lines[owner] = _line(result[owner])
+    still = {owner for pair in _new_crossings(contours, lines) for owner in pair}
+    return [_told(fit) if owner in still else fit for owner, fit in enumerate(result)]
+
+
+def _line(fit: Fit) -> FloatArray:
+    """A fit as a polyline."""
+    return chords(fit.spline, SAMPLING_PART * fit.tolerance)[0]
+
+
+def _no_larger_than_data(fit: Fit) -> Fit:
+    """The fit, or lines through all points where these are fewer."""
+    lines = through_all(fit.contour)
+    if fit.n_stored_points <= len(lines) + (not fit.closed):
+        return fit
+    spline = joined(lines, fit.degree)
+    return verified_fit(
+        fit.contour, spline, tolerance=fit.tolerance, method=fit.method, sections=lines
+    )
+
+
+def _told(fit: Fit) -> Fit:
+    sentence = fit.status.value
+    if sentence.endswith(CROSSES):
+        return fit
+    return replace(fit, status=fit.status.saying(f"{sentence}; {CROSSES}"))
+
+
+def _crossing_parts(
+    pairs: set[tuple[int, int]], rows: Mapping[int, PieceAssignment]
+) -> dict[int, list[int]]:
+    """Of each contour the parts that cross others, or themselves, where no data cross."""
+    lines = {owner: [part.line for part in row.parts] for owner, row in rows.items()}
+    found: set[tuple[int, int]] = set()
+    for i, j in pairs:
+        mine = [(i, k) for k in range(len(lines[i]))]
+        yours = [] if i == j else [(j, k) for k in range(len(lines[j]))]
+        places = mine + yours
+        for a, b in crossing_pairs([lines[owner][k] for owner, k in places]):
+            if i == j or places[a][0] != places[b][0]:
+                found |= {places[a], places[b]}
+        if i == j:
+            found |= {(i, k) for _, k in mine if self_crossings(lines[i][k])}
+    return {
+        owner: sorted(k for other, k in found if other == owner)
+        for owner in sorted({owner for owner, _ in found})
+    }
+
+
+def _new_crossings(
+    contours: Sequence[Contour], lines: Sequence[FloatArray]
+) -> set[tuple[int, int]]:
+    """Pairs of contours whose lines cross but not their data; (i, i) of one that crosses itself."""
+    data = [contour.polyline for contour in contours]
+    pairs = {
+        (i, j)
+        for i, j in crossing_pairs(lines)
+        if not crossing_pairs([data[i], data[j]], at_vertices=True)
+    }
+    return pairs | {
+        (index, index)
+        for index, line in enumerate(lines)
+        if self_crossings(line) > self_crossings(data[index])
+    }
+
+
+def _fitted_again(
+    row: PieceAssignment, found: Sequence[int], step: Step, sides: Sides, refit: Refit
+) -> PieceAssignment:
+    """The row with the parts that cross, and so many beside them, fitted again."""
+    if row.fit.closed and step.beside:
+        row, found = turned_apart(row, found)
+    within = step.within * row.fit.tolerance
+
+    def aside(row: PieceAssignment, window: Sequence[AssignedPiece], trail: DataRun) -> FloatArray:
+        return _aside(row, window, trail, within, sides)
+
+    windows = [
+        Window(begin, end, within)
+        for begin, end in windows_around(found, step.beside, len(row.parts))
+    ]
+    return fitted_again(row, windows, refit, aside if step.moved else None)
+
+
+def _aside(
+    row: PieceAssignment,
+    window: Sequence[AssignedPiece],
+    trail: DataRun,
+    within: float,
+    sides: Sides,
+) -> FloatArray:
+    """The points of a window moved from what lies across a slit."""
+    if not len(trail.points):
+        return trail.points
+    feet = [_feet(part, row.trail.points[part.begin : part.end]) for part in window]
+    across = sides.beside(trail.points, 2 * within).across(trail, row.owner, within)
+    room = row.fit.tolerance - within
+    return moved(trail.points, np.concatenate(feet), across, within, room)
+
+
+def _feet(part: AssignedPiece, points: FloatArray) -> FloatArray:
+    """The nearest point of a part for each point."""
+    curve = curve_of(part.piece)
+    return curve(nearest(curve, points).parameters)

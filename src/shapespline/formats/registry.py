@@ -1,0 +1,277 @@
+"""Read shapes, write drawings: one module and one line of the registry for each format.
+
+A format's module offers ``read(path: Path, *, ...) -> Shape | Outlines | Drawing`` or
+``encode(drawing: Drawing, *, ...) -> bytes`` or both. The keyword-only parameters are the
+options of the format; what is not among them is refused. Units and scale are no such options:
+they are seen to here, and a drawing says its own ``unit``. Points are returned as a Shape, exact
+curves as Outlines, which become a Drawing here. Modules are imported when a file of their kind is
+met.
+"""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+from shapespline.errors import FormatError, InvalidInputError, ShapesplineError, UnknownFormatError
+from shapespline.formats.atomic import check_target, write_atomically
+from shapespline.geometry import Outlines, exact_drawing, in_unit, polygon_drawing
+from shapespline.values import Contour, Drawing, Fit, Shape
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Mapping
+
+
+__all__ = [
+    "FORMATS",
+    "Format",
+    "check_output",
+    "read",
+    "readable",
+    "writable",
+    "write",
+]
+
+
+@dataclass(frozen=True)
+class Format:
+    """A line of the registry: file name endings, and the module that knows them."""
+
+    name: str
+    suffixes: tuple[str, ...]
+    module: str
+    reads: bool = False
+    writes: bool = False
+
+
+FORMATS = (
+    Format("CSV", (".csv", ".txt", ".dat", ".xy", ".tsv"), "csv", reads=True, writes=True),
+    Format("NumPy", (".npy",), "npy", reads=True),
+    Format("image", (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"), "image", reads=True),
+    Format("picture", (".png",), "picture", writes=True),
+    Format("SVG", (".svg",), "svg_reader", reads=True),
+    Format("SVG", (".svg",), "svg_writer", writes=True),
+    Format("DXF", (".dxf",), "dxf_reader", reads=True),
+    Format("DXF", (".dxf",), "dxf_writer", writes=True),
+    Format("JSON", (".json",), "json", reads=True, writes=True),
+    Format("STEP", (".step", ".stp"), "step", reads=True, writes=True),
+    Format("IGES", (".iges", ".igs"), "iges", reads=True, writes=True),
+    Format("3dm", (".3dm",), "rhino", reads=True, writes=True),
+    Format("GeoJSON", (".geojson",), "geojson", reads=True, writes=True),
+    Format("PDF", (".pdf",), "pdf", writes=True),
+    Format("Python", (".py",), "python", writes=True),
+)
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    closed: bool | None = None,
+    y_down: bool = False,
+    unit: str | None = None,
+    scale: float | None = None,
+    dpi: float | None = None,
+    sampling: float | None = None,
+    **options: object,
+) -> Shape | Drawing:
+    """Read a shape, or a drawing of curves, from a file, its format told by its ending.
+
+    Parameters
+    ----------
+    path : path-like
+    closed : bool, optional
+        Whether the outline is closed; found from its ends if not given (CSV, NumPy).
+    y_down : bool
+        Whether y runs down in the file; it is then turned over within its own bounding box (CSV,
+        NumPy).
+    unit : str, optional
+        The unit wanted, such as "mm" or "in". Coordinates are converted if the unit of the file is
+        known (DXF, most SVG files), otherwise they are in this unit from now on.
+    scale : float, optional
+        Further factor for all coordinates; of a picture, the units that a pixel measures.
+    dpi : float, optional
+        Pixels per inch, for pictures and other files in pixels; the unit is "mm" if none is named.
+    sampling : float, optional
+        How closely the contours of a drawing follow its exact curves, data units; 1e-4 of the
+        size of each if not given. Counts after unit and scale. Files of points have no need of it.
+    **options
+        Further options of the format, as keyword arguments of the ``read`` of its module:
+        :mod:`shapespline.formats.image` takes level, polarity, channel, contours, min_area. One
+        that is None counts as not given; one that the format does not take is refused.
+
+    Returns
+    -------
+    Shape or Drawing
+        A Drawing from the formats that hold curves (JSON), else a Shape.
+
+    Raises
+    ------
+    UnknownFormatError
+        If no reader is registered for the ending.
+    InvalidInputError
+        If the format does not take an option.
+    FormatError
+        If the file is missing, empty, unreadable or broken.
+
+    Examples
+    --------
+    >>> read("outline.xyz")
+    Traceback (most recent call last):
+    ...
+    shapespline.errors.UnknownFormatError: outline.xyz: no reader for '.xyz'; readable endings: \
+.3dm .bmp .csv .dat .dxf .geojson .iges .igs .jpeg .jpg .json .npy .png .step .stp .svg .tif .tiff \
+.tsv .txt .xy
+    """
+    path = Path(path)
+    if path.is_dir():
+        raise FormatError(f"cannot read {path}: it is a folder; name a file in it")
+    reader = _function(path, "read")
+    given = {"closed": closed, "y_down": y_down or None, **options}
+    arguments = _checked(path, reader, given)
+    try:
+        _check_source(path)
+        found = reader(path, **arguments)
+        in_wanted = in_unit(cast("Shape | Outlines | Drawing", found), unit, scale, dpi)
+        if isinstance(in_wanted, Outlines):
+            return exact_drawing(in_wanted, sampling=sampling)
+        return in_wanted
+    except OSError as error:
+        raise FormatError(f"cannot read {path}: {error.strerror or error}") from error
+    except ShapesplineError as error:
+        if path.name in str(error):
+            raise
+        raise type(error)(f"{path.name}: {error}") from error
+
+
+def check_output(path: str | os.PathLike[str], **options: object) -> None:
+    """Raise unless :func:`write` could write there: before the work whose result is to be written.
+
+    Raises
+    ------
+    UnknownFormatError
+        If no writer is registered for the ending.
+    FormatError
+        If the folder does not exist or the file cannot be written.
+    InvalidInputError
+        If the format does not take an option.
+    """
+    check_target(path)
+    _checked(Path(path), _function(Path(path), "encode"), options)
+
+
+def write(
+    path: str | os.PathLike[str],
+    drawing: Drawing | Fit | Shape | Contour,
+    *,
+    unit: str | None = None,
+    scale: float | None = None,
+    **options: object,
+) -> None:
+    """Write a drawing to a file told by its ending; whole or not at all.
+
+    Parameters
+    ----------
+    path : path-like
+    drawing : Drawing, Fit, Shape or Contour
+        Outlines that have not been fitted are written as polylines.
+    unit : str, optional
+        The unit of the file, such as "mm" or "in". Coordinates are converted if the unit of the
+        drawing is known, otherwise they are in this unit.
+    scale : float, optional
+        Further factor for all coordinates; of a traced picture, the units that a pixel measures.
+    **options
+        Options of the format, as keyword arguments of the ``encode`` of its module. One that is
+        None counts as not given; one that the format does not take is refused.
+
+    Raises
+    ------
+    UnknownFormatError
+        If no writer is registered for the ending.
+    InvalidInputError
+        If the format does not take an option.
+    FormatError
+        If the folder does not exist, the file cannot be written, or the format cannot hold the
+        drawing.
+    """
+    path = Path(path)
+    encode = _function(path, "encode")
+    arguments = _checked(path, encode, options)
+    check_target(path)
+    held = in_unit(_as_drawing(drawing), unit, scale)
+    write_atomically(path, cast("bytes", encode(held, **arguments)))
+
+
+def _as_drawing(value: Drawing | Fit | Shape | Contour) -> Drawing:
+    if isinstance(value, Drawing):
+        return value
+    if isinstance(value, Fit):
+        return Drawing([value])
+    if isinstance(value, Contour):
+        value = Shape([value])
+    if isinstance(value, Shape):
+        return polygon_drawing(value)
+    raise InvalidInputError(
+        f"drawing must be a Drawing, Fit, Shape or Contour, got {type(value).__name__};"
+        " make one with fit_shape or fit_curve"
+    )
+
+
+def readable() -> tuple[str, ...]:
+    """File name endings that :func:`read` knows, sorted."""
+    return tuple(sorted(suffix for entry in FORMATS if entry.reads for suffix in entry.suffixes))
+
+
+def writable() -> tuple[str, ...]:
+    """File name endings that :func:`write` knows, sorted.
+
+    Examples
+    --------
+    >>> ".svg" in writable(), ".npy" in writable()
+    (True, False)
+    """
+    return tuple(sorted(suffix for entry in FORMATS if entry.writes for suffix in entry.suffixes))
+
+
+def _function(path: Path, name: str) -> Callable[..., object]:
+    """Return the ``read`` or ``encode`` of the module registered for a file's ending."""
+    suffix = path.suffix.lower()
+    for entry in FORMATS:
+        if suffix in entry.suffixes and (entry.reads if name == "read" else entry.writes):
+            module = import_module(f"shapespline.formats.{entry.module}")
+            return cast("Callable[..., object]", getattr(module, name))
+    role, verb, known = (
+        ("reader", "readable", readable()) if name == "read" else ("writer", "writable", writable())
+    )
+    ending = f"for {path.suffix!r}" if suffix else "for a name without an ending"
+    raise UnknownFormatError(f"{path.name}: no {role} {ending}; {verb} endings: {' '.join(known)}")
+
+
+def _checked(
+    path: Path, function: Callable[..., object], options: Mapping[str, object]
+) -> dict[str, object]:
+    """Options that were given, all of them known to the format's function."""
+    known = [
+        name
+        for name, parameter in inspect.signature(function).parameters.items()
+        if parameter.kind is inspect.Parameter.KEYWORD_ONLY
+    ]
+    given = {name: value for name, value in options.items() if value is not None}
+    for name in given:
+        if name not in known:
+            takes = f"take {', '.join(known)}" if known else "take no options"
+            raise InvalidInputError(
+                f"{name} is not an option for {path.name}: {path.suffix} files {takes}"
+            )
+    return given
+
+
+def _check_source(path: Path) -> None:
+    """Say in a sentence why a file cannot be read, as far as that can be seen from outside."""
+    if not path.exists():
+        raise FormatError(f"cannot read {path}: there is no such file")
+    if path.is_file() and path.stat().st_size == 0:
+        raise FormatError(f"cannot read {path}: the file is empty")

@@ -1,0 +1,55 @@
+"""Geometry: pure functions on values."""
+
+from shapespline.geometry.biarcs import arc_polyline
+from shapespline.geometry.comparison import Comparison, compare
+from shapespline.geometry.distances import (
+    FLOOR,
+    CentredCurve,
+    Distances,
+    reverse_distance,
+    rounding,
+    two_sided_distance,
+)
+from shapespline.geometry.exact import Outlines, exact_drawing
+from shapespline.geometry.flattening import chords, sampled
+from shapespline.geometry.intersections import crossing_pairs, self_crossings
+from shapespline.geometry.joining import EXACT, joined, turn_between
+from shapespline.geometry.nearest import nearest, nondecreasing
+from shapespline.geometry.nesting import containing, parents_of, signed_area
+from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
+from shapespline.geometry.polygons import polygon_drawing
+from shapespline.geometry.reversal import backwards, reversed_curve
+from shapespline.geometry.scaling import in_unit
+
+__all__ = [
+    "EXACT",
+    "FLOOR",
+    "PARAMETRIZATIONS",
+    "CentredCurve",
+    "Comparison",
+    "Distances",
+    "Outlines",
+    "arc_polyline",
+    "backwards",
+    "chords",
+    "compare",
+    "containing",
+    "crossing_pairs",
+    "exact_drawing",
+    "greville_matched",
+    "in_unit",
+    "joined",
+    "nearest",
+    "nondecreasing",
+    "parametrize",
+    "parents_of",
+    "polygon_drawing",
+    "reverse_distance",
+    "reversed_curve",
+    "rounding",
+    "sampled",
+    "self_crossings",
+    "signed_area",
+    "turn_between",
+    "two_sided_distance",
+]

@@ -1,0 +1,125 @@
+"""Distances between a curve and its data, both ways, with certified upper bounds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.geometry.nearest import Nearest, nearest
+
+if TYPE_CHECKING:
+    from shapespline.typing import FloatArray
+    from shapespline.values import BSplineCurve, Contour
+
+# The bound of the distance from curve to data is tight to this part of itself ...
+RELATIVE_GAP = 1e-3
+# ... or to this part of the box diagonal where the curve lies on the data.
+FLOOR = 1e-9
+
+
+class Distances(NamedTuple):
+    """What was measured between a curve and a contour, in data units.
+
+    ``max_distance`` and ``rms_distance`` go from the points to the curve; ``reverse_distance`` is
+    the certified bound from the curve to the data polyline, ``parameters`` (n,) are the foot
+    parameters of the contour's points.
+    """
+
+    max_distance: float
+    rms_distance: float
+    reverse_distance: float
+    parameters: FloatArray
+
+    @property
+    def hausdorff_distance(self) -> float:
+        """Upper bound of the larger of both directions."""
+        return max(self.max_distance, self.reverse_distance)
+
+
+def two_sided_distance(curve: BSplineCurve, contour: Contour) -> Distances:
+    """Distances from the data to the curve and from the curve to the data polyline.
+
+    Data to curve: the distance to any curve point is an upper bound of the distance to the curve,
+    and the nearest one is taken. Curve to data: every Bezier piece of the curve is bounded by the
+    largest distance of its control points to one segment, halved until the bound is within 0.1 %
+    of a distance that a curve point really has (METHOD 6). The curve is bounded from end to end,
+    tails and closing piece included.
+
+    Notes
+    -----
+    Rigorous up to the rounding of the evaluations, for which a few units in the last place of the
+    largest coordinate are added.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> from shapespline.values import BSplineCurve
+    >>> roof = BSplineCurve([0, 0, 0.5, 1, 1], [(0, 0), (1, 1), (2, 0)], degree=1)
+    >>> found = two_sided_distance(roof, Contour([(0, 0), (2, 0)]))
+    >>> found.max_distance < 1e-14, round(found.reverse_distance, 3)
+    (True, 1.0)
+    """
+    centred, lost = CentredCurve.of(curve, contour), rounding(curve, contour)
+    found = centred.nearest(contour.points)
+    return Distances(
+        float(np.sqrt(found.distances_sq.max())) + lost,
+        float(np.sqrt(found.distances_sq.mean())),
+        centred.reverse_distance(contour) + lost,
+        found.parameters,
+    )
+
+
+def distances_at(curve: BSplineCurve, contour: Contour, parameters: FloatArray) -> Distances:
+    """The same where the foot parameter of every point is known: none is searched for."""
+    offset = curve(parameters) - contour.points
+    distances = np.hypot(offset[:, 0], offset[:, 1])
+    return Distances(
+        float(distances.max()) + rounding(curve, contour),
+        float(np.sqrt((distances**2).mean())),
+        reverse_distance(curve, contour),
+        parameters,
+    )
+
+
+def reverse_distance(curve: BSplineCurve, contour: Contour) -> float:
+    """Certified bound of the distance from the curve to the data polyline."""
+    return CentredCurve.of(curve, contour).reverse_distance(contour) + rounding(curve, contour)
+
+
+class CentredCurve(NamedTuple):
+    """A curve about the middle of its data: differences formed there do not pay for its place."""
+
+    moved: BSplineCurve
+    middle: FloatArray
+
+    @classmethod
+    def of(cls, curve: BSplineCurve, contour: Contour) -> CentredCurve:
+        """The curve about the middle of a contour's box."""
+        middle = np.array([0.5 * (x.min() + x.max()) for x in contour.points.T])
+        points = curve.control_points - middle
+        return cls(type(curve).trusted(curve.knots, points, curve.degree, curve.periodic), middle)
+
+    def nearest(self, points: FloatArray) -> Nearest:
+        """Nearest points of the curve, as `nearest` finds them."""
+        return nearest(self.moved, points - self.middle)
+
+    def reverse_distance(self, contour: Contour) -> float:
+        """Bound of the distance to the data polyline, but for rounding."""
+        _, reverse, _ = _kernels.curve_deviation(
+            self.moved.knots,
+            self.moved.degree,
+            self.moved.coefficients,
+            contour.polyline - self.middle,
+            RELATIVE_GAP,
+            FLOOR * contour.box_diagonal,
+        )
+        return float(reverse)
+
+
+def rounding(curve: BSplineCurve, contour: Contour) -> float:
+    """A few units in the last place of the largest coordinate."""
+    arrays = (contour.points, curve.control_points)
+    largest = max(max(-array.min(), array.max()) for array in arrays)
+    return 8.0 * float(np.finfo(float).eps * largest)

@@ -1,0 +1,170 @@
+"""Pieces laid end to end, exactly: lines, Beziers and splines of mixed degree as one B-spline.
+
+Every piece is raised to one degree, exactly, and pieces are laid end to end on [0, 1]. A node
+without common tangent is a knot of full multiplicity; where the tangents agree the widths of the
+parameter intervals are chosen so that the speeds agree too, the curve is C1 and one knot less.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import accumulate, combinations, pairwise
+from math import atan2, comb, hypot
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.values import BSplineCurve, Piece
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from shapespline.typing import FloatArray
+
+# Control points beside a node that are closer to it than this part of the others, or parameter
+# intervals that differ by more, leave the node a full knot.
+LARGEST_RATIO = 1e5
+# Rounding that a common tangent may show, radians.
+EXACT = 1e-9
+
+
+def turn_between(before: Piece, after: Piece) -> float:
+    """Signed angle from the end of one piece to the start of the next, radians.
+
+    Examples
+    --------
+    >>> right = Piece("line", 1, np.array([0.0, 0, 1, 1]), np.array([[0.0, 0], [1, 0]]))
+    >>> up = Piece("line", 1, np.array([0.0, 0, 1, 1]), np.array([[1.0, 0], [1, 1]]))
+    >>> round(float(np.degrees(turn_between(right, up))), 6)
+    90.0
+    """
+    (ux, uy), (vx, vy) = _last_leg(before), _first_leg(after)
+    return atan2(ux * vy - uy * vx, ux * vx + uy * vy)
+
+
+# Numbers, not arrays: of a glyph's pieces each is looked at several times.
+def _first_leg(piece: Piece) -> tuple[float, float]:
+    """The way from the first control point to the second."""
+    (ax, ay), (bx, by) = piece.control_points[:2].tolist()
+    return bx - ax, by - ay
+
+
+def _last_leg(piece: Piece) -> tuple[float, float]:
+    """The way from the last control point but one to the last."""
+    (ax, ay), (bx, by) = piece.control_points[-2:].tolist()
+    return bx - ax, by - ay
+
+
+def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
+    """All pieces as one clamped B-spline over [0, 1]: the same curve.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+        End to end, each clamped over [0, 1] and at most of the degree.
+    degree : int, optional
+        1 to 9; the highest among the pieces when not given.
+
+    Examples
+    --------
+    >>> right = Piece("line", 1, np.array([0.0, 0, 1, 1]), np.array([[0.0, 0], [1, 0]]))
+    >>> up = Piece("line", 1, np.array([0.0, 0, 1, 1]), np.array([[1.0, 0], [1, 1]]))
+    >>> corner = joined([right, up], 3)
+    >>> corner.knots.tolist()
+    [0.0, 0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 1.0, 1.0, 1.0, 1.0]
+    >>> corner([0.25, 0.5]).tolist()
+    [[0.5, 0.0], [1.0, 0.0]]
+    """
+    if degree is None:
+        degree = max(piece.degree for piece in pieces)
+    raised = [elevated(piece, degree) for piece in pieces]
+    smooth = [False] + [_c1_possible(a, b) for a, b in pairwise(raised)]
+    widths = _interval_widths(raised, smooth)
+    total = sum(widths)
+    ends = [along / total for along in accumulate(widths, initial=0.0)]
+    ends[-1] = 1.0
+    knots, points = [0.0] * (degree + 1), [raised[0].control_points[:1]]
+    for i, piece in enumerate(raised):
+        inner = piece.knots[degree + 1 : -degree - 1].tolist()
+        last = i == len(raised) - 1
+        drop = 0 if last else int(smooth[i + 1])
+        knots += [ends[i] + u * (ends[i + 1] - ends[i]) for u in inner]
+        knots += [ends[i + 1]] * (degree + 1 if last else degree - drop)
+        points.append(piece.control_points[1 : len(piece.control_points) - drop])
+    return BSplineCurve(knots, np.concatenate(points), degree)
+
+
+def _c1_possible(before: Piece, after: Piece) -> bool:
+    """Whether a common tangent and bounded intervals allow the same speed on both sides."""
+    u, v = hypot(*_last_leg(before)), hypot(*_first_leg(after))
+    return (
+        before.degree > 1
+        and abs(turn_between(before, after)) < EXACT
+        and u < LARGEST_RATIO * v
+        and v < LARGEST_RATIO * u
+    )
+
+
+def _interval_widths(pieces: Sequence[Piece], smooth: Sequence[bool]) -> list[float]:
+    """Parameter widths: polygon lengths, scaled along smooth chains so that speeds agree."""
+    widths: list[float] = []
+    for i, piece in enumerate(pieces):
+        if smooth[i]:
+            before, degree = pieces[i - 1], piece.degree
+            gap_before = widths[-1] * (before.knots[-degree - 1] - before.knots[-degree - 2])
+            u, v = hypot(*_last_leg(before)), hypot(*_first_leg(piece))
+            gap = piece.knots[degree + 1] - piece.knots[degree]
+            widths.append(float(gap_before * v / u / gap))
+        else:
+            widths.append(piece.polygon_length)
+    return widths
+
+
+def elevated(piece: Piece, degree: int) -> Piece:
+    """The same piece with a higher degree, exact up to rounding.
+
+    Control point i is the blossom at degree consecutive knots, and the blossom of a polynomial
+    read with a higher degree is the mean of its own over all choices of arguments (Ramshaw 1989).
+    """
+    p = piece.degree
+    if p == degree:
+        return piece
+    if len(piece.control_points) == p + 1:
+        knots = np.repeat(piece.knots[[0, -1]], degree + 1)
+        points = _elevation_matrix(p, degree) @ piece.control_points
+        return Piece("bezier", degree, knots, points)
+    breakpoints, counts = np.unique(piece.knots, return_counts=True)
+    knots = np.repeat(breakpoints, counts + degree - p)
+    points = np.empty((len(knots) - degree - 1, 2))
+    for i in range(len(points)):
+        # Any span of the support will do: the first that is not empty.
+        begin = knots[i + 1 : i + degree + 1].min()
+        span = int(np.searchsorted(piece.knots, begin, side="right")) - 1
+        span = min(span, len(piece.control_points) - 1)
+        choices = combinations(knots[i + 1 : i + degree + 1], p)
+        points[i] = np.mean([_blossom(piece, span, arguments) for arguments in choices], axis=0)
+    points[0], points[-1] = piece.control_points[0], piece.control_points[-1]
+    return Piece("spline", degree, knots, points)
+
+
+@cache
+def _elevation_matrix(p: int, degree: int) -> FloatArray:
+    """Control points of a Bezier of degree p turned into those of a higher degree."""
+    return np.array(
+        [
+            [comb(p, j) * comb(degree - p, i - j) / comb(degree, i) if i >= j else 0.0
+             for j in range(p + 1)]
+            for i in range(degree + 1)
+        ]
+    )  # fmt: skip
+
+
+def _blossom(piece: Piece, span: int, arguments: tuple[float, ...]) -> FloatArray:
+    """Polar form of the polynomial of one span (de Boor's algorithm with mixed arguments)."""
+    p, knots = piece.degree, piece.knots
+    work = piece.control_points[span - p : span + 1].copy()
+    for r, u in enumerate(arguments, start=1):
+        low, high = knots[span - p + r : span + 1], knots[span + 1 : span + p + 2 - r]
+        share = ((u - low) / (high - low))[:, None]
+        work = (1 - share) * work[:-1] + share * work[1:]
+    return work[0]

@@ -1,0 +1,72 @@
+"""Nearest points on a curve."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.errors import InvalidInputError
+from shapespline.validation import float_array
+
+if TYPE_CHECKING:
+    from shapespline.typing import ArrayLike, FloatArray
+    from shapespline.values import BSplineCurve
+
+
+class Nearest(NamedTuple):
+    """Foot parameters and squared distances of query points, both (k,)."""
+
+    parameters: FloatArray
+    distances_sq: FloatArray
+
+
+def nearest(curve: BSplineCurve, points: ArrayLike) -> Nearest:
+    """Nearest point of the curve for each query point.
+
+    Every Bezier piece whose hull comes near enough is searched, so no distant branch is missed;
+    within a gentle piece Newton's method finds the foot. The distance is that of a real curve
+    point, hence an upper bound of the true one whatever happens.
+
+    Parameters
+    ----------
+    curve : BSplineCurve
+    points : array_like, shape (k, 2)
+
+    Raises
+    ------
+    InvalidInputError
+        If the points are no finite (k, 2) array.
+
+    Examples
+    --------
+    >>> from shapespline.values import BSplineCurve
+    >>> line = BSplineCurve([0, 0, 1, 1], [(0, 0), (4, 0)], degree=1)
+    >>> nearest(line, [(1.0, 2.0), (9.0, 0.0)])
+    Nearest(parameters=array([0.25, 1.  ]), distances_sq=array([ 4., 25.]))
+    """
+    queries = float_array(points, "points")
+    if queries.ndim != 2 or queries.shape[1] != 2 or not np.isfinite(queries).all():
+        raise InvalidInputError(
+            f"points must be a finite (k, 2) array, got shape {queries.shape} with"
+            f" {int((~np.isfinite(queries)).sum())} numbers that are not finite"
+        )
+    parameters, distances_sq = np.empty(len(queries)), np.empty(len(queries))
+    _kernels.nearest_on_curve(
+        curve.knots, curve.degree, curve.coefficients, queries, parameters, distances_sq
+    )
+    return Nearest(parameters, distances_sq)
+
+
+def nondecreasing(parameters: FloatArray, period: float | None = None) -> FloatArray:
+    """Parameters put back into the order of their data, by sorting.
+
+    Sorting is the rearrangement nearest to what came, point by point; of closed data whose
+    unwrapped parameters stretch past one period the excess is clipped.
+    """
+    in_order = bool((parameters[1:] >= parameters[:-1]).all())
+    ordered = parameters if in_order else np.sort(parameters)
+    if period is not None and ordered[-1] > ordered[0] + period:
+        ordered = np.minimum(ordered, ordered[0] + period)
+    return ordered

@@ -1,0 +1,37 @@
+"""Values: immutable inputs and results. They know nothing but themselves."""
+
+from shapespline.values.contour import Contour, checked_contour
+from shapespline.values.curve import BSplineCurve, clamped_ends
+from shapespline.values.drawing import Drawing
+from shapespline.values.fit import Fit, Status
+from shapespline.values.knots import (
+    check_count,
+    check_degree,
+    clamped_knots,
+    greville_abscissae,
+    periodic_knots,
+)
+from shapespline.values.piece import CORNER_TURN, Piece
+from shapespline.values.shape import Shape, checked_parents, nesting_depth
+from shapespline.values.view_box import ViewBox
+
+__all__ = [
+    "CORNER_TURN",
+    "BSplineCurve",
+    "Contour",
+    "Drawing",
+    "Fit",
+    "Piece",
+    "Shape",
+    "Status",
+    "ViewBox",
+    "check_count",
+    "check_degree",
+    "checked_contour",
+    "checked_parents",
+    "clamped_ends",
+    "clamped_knots",
+    "greville_abscissae",
+    "nesting_depth",
+    "periodic_knots",
+]

@@ -1,0 +1,175 @@
+"""Fit and Status: one curve with what was verified about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
+
+    from shapespline.monitor import Iteration
+    from shapespline.typing import FloatArray, IntArray
+    from shapespline.values.contour import Contour
+    from shapespline.values.curve import BSplineCurve
+from shapespline.values.piece import CORNER_TURN, Piece
+
+
+@dataclass(frozen=True, eq=False)
+class Status:
+    """How a fit ended: one of four names, and a sentence with figures and a remedy.
+
+    Two statuses are equal when their names are: ``fit.status == Status.KEPT``.
+    """
+
+    name: str
+    value: str
+
+    KEPT: ClassVar[Status]
+    EXCEEDED: ClassVar[Status]
+    BUDGET: ClassVar[Status]
+    CANCELLED: ClassVar[Status]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Status) and self.name == other.name
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def __str__(self) -> str:
+        return self.value
+
+    def saying(self, sentence: str) -> Status:
+        """The same status with its own sentence."""
+        return Status(self.name, sentence)
+
+
+Status.KEPT = Status("KEPT", "both distances are within the tolerance")
+Status.EXCEEDED = Status("EXCEEDED", "a distance exceeds the tolerance")
+Status.BUDGET = Status("BUDGET", "a budget ran out before the fit had converged")
+Status.CANCELLED = Status("CANCELLED", "the callback cancelled the fit")
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Fit:
+    """A curve fitted to a contour, and what is known about it.
+
+    Attributes
+    ----------
+    spline : BSplineCurve
+        The curve over [0, 1]; ``curve`` is the same as a scipy BSpline.
+    contour : Contour
+        The data.
+    parameters : ndarray, shape (n_given,)
+        The nearest foot parameter of every point that was given and not left out.
+    max_distance, rms_distance : float
+        Data to curve, data units; the maximum is an upper bound up to rounding.
+    hausdorff_distance : float
+        Certified upper bound of the larger of data -> curve and curve -> data polyline.
+    tolerance : float
+        The one asked for, or the one found: then it is ``hausdorff_distance``.
+    status : Status
+        ``status.value`` is a sentence with figures.
+    history : tuple of Iteration
+        One record per iteration, the start first.
+    method : str
+        Name of the solver.
+    sections : tuple of Piece
+        The pieces that the curve was made of, end to end; empty for a single spline.
+    outliers : ndarray
+        Indices, among the points that were given, of those left out on request.
+    """
+
+    spline: BSplineCurve
+    contour: Contour
+    parameters: FloatArray = field(repr=False)
+    max_distance: float
+    rms_distance: float
+    hausdorff_distance: float
+    tolerance: float
+    status: Status
+    history: tuple[Iteration, ...] = field(repr=False)
+    method: str
+    sections: tuple[Piece, ...] = field(default=(), repr=False)
+    outliers: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64), repr=False)
+
+    @cached_property
+    def curve(self) -> BSpline:
+        """The whole result as one ``scipy.interpolate.BSpline``, periodic if smooth and closed."""
+        return self.spline.to_scipy()
+
+    @property
+    def control_points(self) -> FloatArray:
+        """Distinct control points, shape (m, 2)."""
+        return self.spline.control_points
+
+    @property
+    def n_control_points(self) -> int:
+        """Number of distinct control points."""
+        return self.spline.n_control_points
+
+    @property
+    def knots(self) -> FloatArray:
+        """Full knot array of ``curve``."""
+        return self.spline.knots
+
+    @property
+    def degree(self) -> int:
+        """Degree of ``curve``."""
+        return self.spline.degree
+
+    @property
+    def closed(self) -> bool:
+        """Whether the curve ends where it begins."""
+        ends = self.control_points[[0, -1]]
+        return self.spline.periodic or bool((ends[0] == ends[1]).all())
+
+    @property
+    def corners(self) -> FloatArray:
+        """Parameters where the curve turns by more than a degree, shape (c,)."""
+        pieces, breakpoints = self.spline.beziers()
+        arriving, leaving = pieces[:, -1] - pieces[:, -2], pieces[:, 1] - pieces[:, 0]
+        if self.closed:
+            before, at = np.roll(arriving, 1, axis=0), breakpoints[:-1]
+        else:
+            before, leaving, at = arriving[:-1], leaving[1:], breakpoints[1:-1]
+        turn = before[:, 0] * leaving[:, 1] - before[:, 1] * leaving[:, 0]
+        along = (before * leaving).sum(axis=1)
+        return at[np.abs(np.arctan2(turn, along)) > CORNER_TURN]
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The curve end to end as lines, Beziers or splines."""
+        if self.sections:
+            return self.sections
+        spline = self.spline
+        without_inner_knots = len(spline.breakpoints) == 2 and not spline.periodic
+        kind = "line" if spline.degree == 1 else "bezier"
+        return (
+            Piece(
+                kind if without_inner_knots else "spline",
+                spline.degree,
+                spline.knots,
+                spline.control_points,
+            ),
+        )
+
+    @property
+    def n_stored_points(self) -> int:
+        """Distinct points that a file of the pieces stores.
+
+        A line counts 1, a quadratic 2, a cubic 3, a spline with k interior knots its degree + k;
+        an open curve one more.
+        """
+        if self.spline.periodic and not self.sections:
+            return self.n_control_points
+        stored = sum(len(piece.control_points) - 1 for piece in self.pieces)
+        return stored + int(not self.closed)
+
+    @property
+    def kept(self) -> bool:
+        """Whether both bounds are within the tolerance."""
+        return max(self.max_distance, self.hausdorff_distance) <= self.tolerance

@@ -1,0 +1,92 @@
+"""The rooms and the arrows between them, read from the sources."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[2] / "src" / "shapespline"
+
+GROUND = {"errors", "typing", "units", "validation", "monitor", "_kernels", "_version"}
+ENGINES = {"engines.pieces", "engines.spline", "engines.least_squares"}
+# A room -> the rooms that it may import. A room is imported by its own name, never past it.
+MAY_IMPORT = {
+    "values": GROUND,
+    "geometry": GROUND | {"values"},
+    "solvers": {"errors", "typing"},
+    "analysis": GROUND | {"values", "geometry"},
+    "tracing": GROUND | {"values", "geometry", "analysis"},
+    "streaming": GROUND | {"values", "geometry", "analysis"},
+    "formats": GROUND | {"values", "geometry", "analysis"},
+    "engines.pieces": GROUND | {"values", "geometry", "analysis"},
+    "engines.spline": GROUND | {"values", "geometry", "analysis"},
+    "engines.least_squares": GROUND | {"values", "geometry", "analysis", "streaming", "solvers"},
+    "plotting": GROUND | {"values", "geometry", "formats"},
+    "fitting": GROUND | ENGINES | {"values", "geometry", "analysis", "streaming", "solvers"},
+    "paper": GROUND
+    | ENGINES
+    | {"values", "geometry", "analysis", "solvers", "formats", "plotting", "fitting"},
+    "cli": GROUND
+    | {"", "values", "geometry", "analysis", "tracing", "formats", "plotting", "fitting", "paper"},
+}
+# Single arrows beside the table: file -> room.
+ALSO = {("formats/image.py", "tracing"), ("__main__.py", "cli"), ("__main__.py", "_version")}
+SOURCES = sorted(PACKAGE.rglob("*.py"))
+
+
+def room_of(module: str) -> str:
+    """The room of a dotted name below the package; a file at the top is a room of its own."""
+    parts = module.split(".")
+    return ".".join(parts[: 2 if parts[0] == "engines" else 1])
+
+
+def arrows(path: Path) -> list[tuple[str, str]]:
+    """(module, name) of every import of this package in a file, at load, call or typing time."""
+    found = []
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found += [(alias.name, "") for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path.name}: write absolute imports"
+            found += [(node.module or "", alias.name) for alias in node.names]
+    return [
+        (module.removeprefix("shapespline").lstrip("."), name)
+        for module, name in found
+        if module.split(".")[0] == "shapespline"
+    ]
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_arrows_run_down_the_table_and_stop_at_the_door(path):
+    where = path.relative_to(PACKAGE).as_posix()
+    here = room_of(where.removesuffix(".py").removesuffix("/__init__").replace("/", "."))
+    for module, name in arrows(path):
+        if module == "" and name in GROUND:
+            module = name
+        there = room_of(module)
+        if here in GROUND | {"__init__", "engines"}:
+            assert there in GROUND or here == "__init__", f"{where} imports {module}"
+        elif there != here and (where, there) not in ALSO:
+            assert there in MAY_IMPORT[here], f"{where} imports {module}"
+            assert module == there, f"{where} reaches past the door of {there}: {module}"
+
+
+@pytest.mark.parametrize("room", sorted(MAY_IMPORT))
+def test_a_room_names_what_it_offers(room):
+    tree = ast.parse((PACKAGE / room.replace(".", "/") / "__init__.py").read_text("utf-8"))
+    offered = [
+        ast.literal_eval(node.value)
+        for node in tree.body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__"
+    ]
+    assert len(offered) == 1
+    assert not [name for name in offered[0] if name.startswith("_")]
+
+
+def test_the_house_has_few_rooms():
+    top = [path for path in PACKAGE.iterdir() if path.suffix != ".so" and path.name[0] != "."]
+    folders = [path for path in top if path.is_dir() and path.name != "__pycache__"]
+    assert len(folders) <= 13
+    assert len(top) - len([p for p in top if p.is_dir()]) <= 10
