@@ -39,7 +39,7 @@ OWN = ROOT / "examples" / "data" / "outlines"
 LARGE = ROOT.parent / "shared" / "data"
 TOLERANCES = (0.5, 0.1, 0.02)  # per cent of the box diagonal
 LONGEST = 20_000
-PINNED = ROOT / "tests" / "pinned_points.csv"
+PINNED = ROOT / "tests" / "contract" / "pinned_points.csv"
 # Degrees that a joint turns which is neither smooth nor a corner.
 LITTLE = (1.01, 30.0)
 # What the certified bound may miss of the sampled distance: rounding alone.

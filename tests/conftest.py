@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import settings
+from tests.support.places import OUTLINES, ROOT
 
 from shapespline.__main__ import main
 from shapespline.values.contour import Contour
 
-ROOT = Path(__file__).resolve().parents[1]
-OUTLINES = ROOT / "examples" / "data" / "outlines"
 MORE_OUTLINES = ROOT.parent / "shared" / "data"
 
 # The same examples on every run: a failure in CI is a failure at the desk.

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import ast
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
+from tests.support.places import ROOT
 
-PACKAGE = Path(__file__).resolve().parents[2] / "src" / "shapespline"
+if TYPE_CHECKING:
+    from pathlib import Path
+
+PACKAGE = ROOT / "src" / "shapespline"
 
 GROUND = {"errors", "typing", "units", "validation", "monitor", "_kernels", "_version"}
 ENGINES = {"engines.pieces", "engines.spline", "engines.least_squares"}

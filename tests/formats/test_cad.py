@@ -1,0 +1,141 @@
+"""STEP, IGES and 3dm: the same geometry for readers that we did not write, and back."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.support.make_fit import blob, fit_of, nested, wave
+from tests.support.round_trip import round_trip
+
+import shapespline as ss
+from shapespline.values.drawing import Drawing
+
+pytest.importorskip("OCP.Geom", reason="needs shapespline[cad]")
+rhino3dm = pytest.importorskip("rhino3dm", reason="needs shapespline[rhino]")
+
+ENDINGS = ["step", "iges", "3dm"]
+
+
+@pytest.fixture
+def drawings(outline):
+    square = ss.Contour([(0, 0), (4, 0), (4, 4), (0, 4)], closed=True).resampled(80)
+    return {
+        "ring": Drawing([fit_of(blob())]),
+        "wave": Drawing([fit_of(wave())]),
+        "nested": nested(),
+        "degree 5": Drawing([fit_of(blob(degree=5))]),
+        "square": Drawing([ss.fit_curve(square, tolerance=0.01)]),
+        "hand": Drawing([ss.fit_curve(outline("hand620_closed"), tolerance=0.3)]),
+        "loop": Drawing([ss.fit_curve(outline("loop500_open"), tolerance=0.2)]),
+    }
+
+
+NAMES = ["ring", "wave", "nested", "degree 5", "square", "hand", "loop"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("ending", ENDINGS)
+@pytest.mark.slow
+def test_round_trip(drawings, tmp_path, ending, name):
+    round_trip(drawings[name], tmp_path / f"drawing.{ending}")
+
+
+@pytest.mark.parametrize("ending", ["step", "iges"])
+def test_the_same_bytes(drawings, tmp_path, ending):
+    for name in ("first", "second"):
+        ss.write(tmp_path / f"{name}.{ending}", drawings["hand"])
+    assert (tmp_path / f"first.{ending}").read_bytes() == (
+        tmp_path / f"second.{ending}"
+    ).read_bytes()
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_units(drawings, tmp_path, ending):
+    path = tmp_path / f"drawing.{ending}"
+    ss.write(path, drawings["square"], unit="in")
+    again = ss.read(path, unit="in")
+    assert again.unit == "in"
+    assert abs(again.fits[0].contour.box_diagonal - 4 * np.sqrt(2)) < 0.03
+    plain = ss.read(path)
+    in_mm = 25.4 if plain.unit == "mm" else 1.0
+    assert abs(plain.fits[0].contour.box_diagonal - in_mm * 4 * np.sqrt(2)) < 0.03 * in_mm
+
+
+@pytest.mark.parametrize("name", ["ring", "square", "hand"])
+def test_opencascade_sees_one_valid_closed_wire(drawings, tmp_path, name):
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepCheck import BRepCheck_Analyzer
+    from OCP.STEPControl import STEPControl_Reader
+    from OCP.TopAbs import TopAbs_EDGE, TopAbs_WIRE
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    path = tmp_path / "drawing.step"
+    ss.write(path, drawings[name])
+    reader = STEPControl_Reader()
+    reader.ReadFile(str(path))
+    reader.TransferRoots()
+    shape = reader.OneShape()
+    assert BRepCheck_Analyzer(shape).IsValid()
+
+    def count(kind):
+        explorer, found = TopExp_Explorer(shape, kind), []
+        while explorer.More():
+            found.append(explorer.Current())
+            explorer.Next()
+        return found
+
+    (wire,) = count(TopAbs_WIRE)
+    assert BRep_Tool.IsClosed_s(TopoDS.Wire(wire))
+    from shapespline.formats.entities import entities
+
+    assert len(count(TopAbs_EDGE)) == len(entities(drawings[name].fits[0]))
+    text = path.read_text()
+    assert ("B_SPLINE_CURVE_WITH_KNOTS" in text) == (name != "square")
+    assert "RATIONAL" not in text
+
+
+def test_rhino_evaluates_the_same_curve(drawings, tmp_path):
+    path = tmp_path / "ring.3dm"
+    ss.write(path, drawings["ring"])
+    (entry,) = rhino3dm.File3dm.Read(str(path)).Objects
+    curve, spline = entry.Geometry, drawings["ring"].fits[0].spline
+    assert curve.IsClosed
+    for u in np.linspace(0, 1, 57):
+        point = curve.PointAt(float(u))
+        assert np.abs(spline([u])[0] - (point.X, point.Y)).max() <= 1e-9 * 20
+
+
+def test_arcs_of_other_programs(tmp_path):
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
+    from OCP.gp import gp_Ax2, gp_Circ, gp_Dir, gp_Pnt
+    from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
+
+    def write(direction, path):
+        circle = gp_Circ(gp_Ax2(gp_Pnt(5, 7, 2), direction), 3)
+        writer = STEPControl_Writer()
+        writer.Transfer(
+            BRepBuilderAPI_MakeEdge(circle).Edge(), STEPControl_StepModelType.STEPControl_AsIs
+        )
+        writer.Write(str(path))
+
+    flat, steep = tmp_path / "flat.step", tmp_path / "steep.step"
+    write(gp_Dir(0, 0, 1), flat)
+    write(gp_Dir(1, 0, 0), steep)
+    (fit,) = ss.read(flat)
+    assert fit.closed
+    radius = np.hypot(*(fit.spline(np.linspace(0, 1, 999)) - (5, 7)).T)
+    assert np.abs(radius - 3).max() <= 1e-8
+    with pytest.raises(ss.FormatError, match="does not lie in a plane z = constant"):
+        ss.read(steep)
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_damaged_files_are_sentences(drawings, tmp_path, ending):
+    path = tmp_path / f"drawing.{ending}"
+    ss.write(path, drawings["wave"])
+    data = path.read_bytes()
+    for broken in (data[: len(data) // 2], b"\x89PNG\r\n\x1a\n" * 20, b"hello\n" * 9):
+        path.write_bytes(broken)
+        with pytest.raises(ss.FormatError):
+            ss.read(path)

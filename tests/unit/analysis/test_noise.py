@@ -1,0 +1,79 @@
+"""noise_level: what was added is found, whatever the spacing; clean data have none."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.stats import chi2
+from tests.support.shapes import flower, rectangle, wave
+
+from shapespline.analysis.noise import HALF_WINDOW, noise_level
+from shapespline.values.contour import Contour
+
+DEGREES_OF_FREEDOM = 2 * HALF_WINDOW + 1 - 4
+
+
+def spread(n):
+    """Relative standard deviation of the estimate from n independent windows (median of chi^2)."""
+    middle = chi2.median(DEGREES_OF_FREEDOM)
+    return 0.5 / (2 * np.sqrt(n) * chi2.pdf(middle, DEGREES_OF_FREEDOM) * middle)
+
+
+@pytest.mark.parametrize("sigma", [0.01, 0.1, 1.0, 10.0])  # of a step
+@pytest.mark.parametrize(
+    "contour", [flower(40_000), rectangle(12_000, 8_000)], ids=["flower", "box"]
+)
+def test_known_noise_is_found_however_dense_the_points(contour, sigma):
+    n = len(contour)
+    deviation = sigma * contour.length / n
+    noise = np.random.default_rng(5).normal(0, deviation, (n, 2))
+    found = noise_level(Contour(contour.points + noise, closed=True))
+    # Windows overlap: every seventh is independent.
+    assert abs(found / deviation - 1) <= 4 * spread(n / (2 * HALF_WINDOW + 1))
+
+
+@pytest.mark.parametrize("percent", [0.2, 1.0])
+def test_known_noise_is_found_on_real_outlines(all_outlines, percent):
+    for index, (name, contour) in enumerate(all_outlines):
+        if "_n" in name:
+            continue
+        deviation = percent / 100 * contour.box_diagonal
+        noise = np.random.default_rng(index).normal(0, deviation, contour.points.shape)
+        found = noise_level(Contour(contour.points + noise, contour.closed))
+        n = len(contour)
+        assert abs(found / deviation - 1) <= max(0.2, 4 * spread(n / (2 * HALF_WINDOW + 1))), name
+
+
+def test_clean_outlines_have_less_than_their_sampling_can_show(all_outlines):
+    for name, contour in all_outlines:
+        if "_n" not in name:
+            step = np.median(np.diff(contour.arc_length))
+            assert noise_level(contour) < 0.01 * step, name
+
+
+def test_steps_along_the_outline_do_not_count():
+    # A line with steps that vary tenfold: as a function of the index it is rough, across it is not.
+    x = np.cumsum(np.random.default_rng(2).uniform(0.1, 1.0, 500))
+    assert noise_level(Contour(np.column_stack([x, 2 * x]), closed=False)) < 1e-12 * x[-1]
+
+
+def test_clean_figures_have_rounding_only():
+    for contour in (rectangle(30, 20), wave(6)):
+        largest = np.abs(contour.points - contour.points[0]).max()
+        # A rounding of each coordinate, in sums of seven with coefficients below one.
+        assert noise_level(contour) <= 7 * np.finfo(float).eps * largest
+
+
+def test_direction_and_first_point_do_not_matter():
+    points = flower(300).points + np.random.default_rng(3).normal(0, 0.05, (300, 2))
+    level = noise_level(Contour(points, closed=True))
+    for other in (points[::-1], np.roll(points, 41, axis=0)):
+        # The first point is subtracted: a rounding of the coordinates.
+        assert noise_level(Contour(other, closed=True)) == pytest.approx(level, rel=1e-9)
+
+
+def test_the_accuracy_of_the_source_is_the_least():
+    assert noise_level(Contour(rectangle(30, 20).points, closed=True, accuracy=0.25)) == 0.25
+    few = [(0, 0), (1, 0), (1, 1)]
+    assert noise_level(Contour(few, closed=True)) == 0.0
+    assert noise_level(Contour(few, closed=True, accuracy=0.1)) == 0.1

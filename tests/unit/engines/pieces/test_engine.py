@@ -1,0 +1,232 @@
+"""The structured fit: the promise by dense samples, counts, exact export, canonical order."""
+
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.interpolate import BSpline
+from tests.support.pieces_check import chord_error, end_gaps, sampled, sampled_distances
+from tests.support.shapes import flower, moved, on_circle, rectangle, wave
+
+from shapespline.engines.pieces.engine import fit_pieces
+from shapespline.errors import InvalidInputError
+from shapespline.values.contour import Contour
+
+PEERS = ("hand620_closed", "leaf840_closed", "plane1100_closed", "loop500_open")
+# Stored points of the balanced search: upper bounds, so that a change shows what it costs.
+# The averages over shaken data ("Luck" in docs/decisions.md), and the 14 of a short one.
+FAITHFUL = {"hand620_closed": (56, 32), "leaf840_closed": (73, 37),
+            "plane1100_closed": (30, 28), "loop500_open": (15, 14)}  # fmt: skip
+FREE = {"hand620_closed": (48, 29), "leaf840_closed": (60, 36),
+        "plane1100_closed": (31, 28), "loop500_open": (15, 12)}  # fmt: skip
+
+
+def check_promise(result, contour):
+    """Both distances by dense samples; the pieces end to end."""
+    forward, reverse = sampled_distances(result, contour)
+    assert result.kept
+    assert reverse <= result.tolerance
+    assert forward <= result.tolerance + chord_error(result)
+    assert max(end_gaps(result), default=0.0) == 0.0
+
+
+def check_export(result):
+    """The one B-spline runs through the same points, piece by piece."""
+    whole = result.spline
+    u = np.linspace(0, 1, 4001)
+    dense = BSpline(whole.knots, whole.control_points, whole.degree)(u)
+    size = np.abs(whole.control_points).max()
+    fine = np.concatenate([sampled(piece, 2000) for piece in result.pieces])
+    steps = np.hypot(*np.diff(fine, axis=0).T).max()
+    gaps = np.array([np.hypot(*(fine - p).T).min() for p in dense[::40]])
+    assert gaps.max() <= steps + 1e-12 * size
+    assert whole.domain == (0.0, 1.0)
+
+
+@pytest.mark.parametrize("name", PEERS)
+@pytest.mark.parametrize("corners", ["auto", "free"])
+@pytest.mark.slow
+def test_peers_keep_the_promise_with_few_points(outline, name, corners):
+    contour = outline(name)
+    most = (FAITHFUL if corners == "auto" else FREE)[name]
+    for part, count in zip((0.001, 0.005), most, strict=True):
+        result = fit_pieces(contour, part * contour.box_diagonal, corners=corners)
+        check_promise(result, contour)
+        check_export(result)
+        assert result.n_stored_points <= count
+
+
+@pytest.mark.parametrize("name", ["hand620_closed", "leaf840_closed", "loop500_open"])
+def test_joints_that_are_no_corners_are_tangent(outline, name):
+    contour = outline(name)
+    result = fit_pieces(contour, 0.001 * contour.box_diagonal)
+    turns = np.abs(np.degrees(list(result.turns())))
+    assert ((turns < 1.01) | (turns > 1.01)).all()
+    sharp = int((turns > 1.01).sum())
+    assert len(result.corners) <= sharp
+
+
+def test_a_line_stays_one_line():
+    x = np.linspace(0, 10, 50)
+    result = fit_pieces(Contour(np.column_stack([x, 0.5 * x]), closed=False), 0.01)
+    assert [piece.kind for piece in result.pieces] == ["line"]
+    assert result.n_stored_points == 2
+
+
+def test_a_rectangle_is_four_lines_through_its_corners():
+    contour = rectangle(60, 40)
+    result = fit_pieces(contour, 0.1)
+    assert [piece.kind for piece in result.pieces] == ["line"] * 4
+    assert result.corners.tolist() == [0, 60, 100, 160]
+    for piece in result.pieces:
+        gap = np.hypot(*(contour.points[result.corners] - piece.control_points[0]).T).min()
+        assert gap <= 0.1
+
+
+def test_a_stadium_keeps_its_sides_straight_and_its_joints_smooth():
+    angle = np.linspace(-np.pi / 2, np.pi / 2, 60)
+    right = np.column_stack([20 + 5 * np.cos(angle), 5 * np.sin(angle)])
+    x = np.linspace(0, 20, 81)[1:-1]
+    bottom = np.column_stack([x, 0 * x - 5])
+    contour = Contour(np.concatenate([bottom, right, -bottom + (20, 0), -right + (20, 0)]), True)
+    result = fit_pieces(contour, 0.02)
+    check_promise(result, contour)
+    assert len(result.corners) == 0
+    assert max(abs(turn) for turn in result.turns()) < np.radians(1.01)
+
+
+@pytest.mark.parametrize("degree", range(1, 10))
+def test_every_degree_keeps_the_promise(degree):
+    contour = wave(120)
+    result = fit_pieces(contour, 0.05, degree=degree)
+    check_promise(result, contour)
+    check_export(result)
+    assert result.spline.degree == degree
+    assert max(piece.degree for piece in result.pieces) <= min(degree, 3)
+
+
+def test_given_corners_are_nodes():
+    contour = flower()
+    result = fit_pieces(contour, 0.05, corners=[0, 120])
+    check_promise(result, contour)
+    plain = fit_pieces(contour, 0.05, corners=None)
+    check_promise(plain, contour)
+
+
+@pytest.mark.parametrize("effort", ["fast", "balanced", "smallest"])
+def test_every_effort_keeps_the_promise(effort):
+    contour = flower()
+    check_promise(fit_pieces(contour, 0.05, effort=effort), contour)
+
+
+def test_smallest_is_no_larger_than_balanced(outline):
+    contour = outline("loop500_open")
+    tolerance = 0.001 * contour.box_diagonal
+    smallest, balanced = (
+        fit_pieces(contour, tolerance, effort=effort).n_stored_points
+        for effort in ("smallest", "balanced")
+    )
+    assert smallest <= balanced
+
+
+@pytest.mark.parametrize("shift", [1, 57])
+def test_the_first_point_of_a_closed_outline_does_not_matter(outline, shift):
+    contour = outline("plane1100_closed")
+    other = Contour(np.roll(contour.points, shift, axis=0), closed=True)
+    a, b = (fit_pieces(c, 0.001 * contour.box_diagonal) for c in (contour, other))
+    assert a.spline.control_points.tolist() == b.spline.control_points.tolist()
+    assert a.spline.knots.tolist() == b.spline.knots.tolist()
+
+
+@pytest.mark.parametrize("name", ["plane1100_closed", "loop500_open"])
+def test_the_direction_of_the_outline_does_not_matter(outline, name):
+    contour = outline(name)
+    other = Contour(contour.points[::-1], contour.closed)
+    a, b = (fit_pieces(c, 0.001 * contour.box_diagonal) for c in (contour, other))
+    assert len(a.pieces) == len(b.pieces)
+    for piece, mirrored in zip(a.pieces, reversed(b.pieces), strict=True):
+        assert piece.control_points.tolist() == mirrored.control_points[::-1].tolist()
+
+
+def test_repetition_gives_the_same_bits():
+    a, b = (fit_pieces(flower(), 0.05) for _ in range(2))
+    assert a.spline.control_points.tobytes() == b.spline.control_points.tobytes()
+    assert a.spline.knots.tobytes() == b.spline.knots.tobytes()
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e9])
+@pytest.mark.parametrize("shift", [0.0, 1e3])
+def test_scale_and_place_do_not_break_the_promise(scale, shift):
+    points = moved(flower().points, 0.2, scale, (shift * scale, -shift * scale))
+    contour = Contour(points, closed=True)
+    result = fit_pieces(contour, 0.05 * scale)
+    check_promise(result, contour)
+    assert result.n_stored_points <= 1.1 * fit_pieces(flower(), 0.05).n_stored_points
+
+
+def spiky():
+    """A circle with a spike that runs out and back on itself."""
+    points = on_circle(100, 10.0)
+    out = np.column_stack([np.linspace(10.5, 20, 20), np.zeros(20)])
+    return np.concatenate([out, out[-2::-1], points[1:]])
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        on_circle(3), on_circle(5), on_circle(12), spiky(),
+        np.column_stack([np.geomspace(1, 1e3, 60), np.sqrt(np.geomspace(1, 1e3, 60))]),
+        np.column_stack([np.linspace(0, 1, 40), np.zeros(40)]),
+        np.column_stack([np.sin(2 * on_circle(300)[:, 0]), on_circle(300)[:, 1]]),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("part", [0.2, 0.01, 1e-4])
+@pytest.mark.parametrize("corners", ["auto", "free", None])
+@pytest.mark.slow
+def test_awkward_outlines_keep_the_promise(points, part, corners):
+    for closed in (True, False):
+        contour = Contour(points, closed=closed)
+        check_promise(fit_pieces(contour, part * contour.box_diagonal, corners=corners), contour)
+
+
+@given(
+    st.lists(st.tuples(st.integers(-20, 20), st.integers(-20, 20)), min_size=5, max_size=40),
+    st.booleans(),
+    st.sampled_from(["auto", "free", None]),
+)
+@pytest.mark.slow
+def test_any_polyline_keeps_the_promise(points, closed, corners):
+    if len(set(points)) < 3:
+        return
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        contour = Contour(points, closed=closed)
+    check_promise(fit_pieces(contour, 0.3, corners=corners), contour)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("folder", ["airfoils", "glyphs", "icons", "silhouettes", "strokes"])
+def test_the_corpus_keeps_the_promise(more_outlines, folder):
+    for name, contour in more_outlines(folder, 12):
+        for corners in ("auto", "free"):
+            result = fit_pieces(contour, 0.005 * contour.box_diagonal, corners=corners)
+            assert result.kept, (name, corners)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"tolerance": 0.0}, "tolerance must be a positive number"),
+        ({"tolerance": np.nan}, "tolerance must be a positive number"),
+        ({"effort": "quick"}, "effort must be one of fast, balanced, smallest"),
+        ({"corners": "none"}, "corners must be 'auto', 'free', None or indices"),
+        ({"corners": [900]}, "corners must be indices below"),
+        ({"corners": [0.5]}, "corners must be one list of whole numbers"),
+        ({"degree": 10}, "degree must be an integer from 1 to 9"),
+    ],
+)
+def test_bad_arguments_say_what_is_wrong(arguments, message):
+    with pytest.raises(InvalidInputError, match=message):
+        fit_pieces(flower(), **{"tolerance": 0.05, **arguments})

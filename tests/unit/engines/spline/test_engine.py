@@ -1,0 +1,234 @@
+"""The single spline by knot removal."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from benchmarks.scale import wiggly
+from scipy.spatial import cKDTree
+from tests.support.shapes import flower, moved, on_circle, rectangle, wave
+
+from shapespline.engines.spline import engine as removal
+from shapespline.engines.spline.engine import fit_spline
+from shapespline.engines.spline.fairness import GAP_RATIO, SPEED_RATIO, RuleReport
+from shapespline.errors import InvalidInputError
+from shapespline.monitor import End, Monitor
+from shapespline.values.contour import Contour
+
+# Control points with the product rule at 0.1 and 0.5 % of the box diagonal: no more than these.
+MOST_POINTS = [
+    ("hand620_closed", 0.001, 42),
+    ("hand620_closed", 0.005, 29),
+    ("leaf840_closed", 0.001, 61),
+    ("leaf840_closed", 0.005, 35),
+    ("plane1100_closed", 0.001, 46),
+    ("plane1100_closed", 0.005, 30),
+    ("loop500_open", 0.001, 13),
+    ("loop500_open", 0.005, 11),
+]
+
+
+def test_what_misses_the_rule_begins_elsewhere_at_last_with_the_polyline(monkeypatch):
+    starts = []
+
+    def noted(*arguments):
+        starts.append((arguments[5], (search := begin(*arguments)).from_polyline()))
+        return search
+
+    begin = removal._search
+    broken = RuleReport(2 * GAP_RATIO, 1.0, 0, 0)
+    monkeypatch.setattr(removal, "_search", noted)
+    monkeypatch.setattr(removal, "rule_report", lambda *_: broken)
+    assert fit_spline(flower(), 0.05).kept
+    assert starts == [(0, False), (1, False), (2, True)]
+
+
+@pytest.mark.parametrize("effort", ["fast", "balanced"])
+def test_without_hope_less_is_tried_for_as_few_points(monkeypatch, effort):
+    fit = fit_spline(flower(), 0.02, effort=effort)
+    level = removal.LEVELS[effort]._replace(worth_trying=np.inf, worth_insisting=np.inf)
+    monkeypatch.setitem(removal.LEVELS, effort, level)
+    patient = fit_spline(flower(), 0.02, effort=effort)
+    assert fit.counts["trials"] < patient.counts["trials"]
+    assert fit.n_control_points == patient.n_control_points
+
+
+@pytest.mark.parametrize("n", [1500, 4000, 20_000])
+def test_many_bends_are_not_cut_across_by_the_first_knots(n):
+    # Two dozen knots for 29 waves end in loops, and in twice the knots that are needed.
+    fit = fit_spline(Contour(wiggly(n), closed=True), 0.1, effort="fast")
+    assert fit.kept
+    assert fit.counts["accepted"] < fit.n_control_points / 4
+
+
+def dense(curve, per_span=400):
+    """Points of a curve by SciPy's evaluation, which shares nothing with the search."""
+    breaks = curve.breakpoints
+    u = np.concatenate(
+        [np.linspace(a, b, per_span, endpoint=False) for a, b in itertools.pairwise(breaks)]
+        + [breaks[-1:]]
+    )
+    return u, curve.to_scipy()(u)
+
+
+def segment_distances(points, a, b):
+    """Distance of each point to the nearest of all segments a b."""
+    along = b - a
+    length_sq = np.maximum((along**2).sum(axis=1), 1e-300)
+    best = np.full(len(points), np.inf)
+    for i in range(len(a)):
+        s = np.clip(((points - a[i]) @ along[i]) / length_sq[i], 0, 1)
+        best = np.minimum(best, np.hypot(*(points - a[i] - s[:, None] * along[i]).T))
+    return best
+
+
+def assert_promise(fit, contour):
+    """Both distances by dense samples, which may exceed the tolerance by their own chords only."""
+    assert fit.kept
+    _, samples = dense(fit.curve)
+    chord = np.hypot(*np.diff(samples, axis=0).T).max()
+    nearest, _ = cKDTree(samples).query(contour.points)
+    assert (nearest <= np.hypot(fit.tolerance, chord)).all()
+    polyline = contour.polyline
+    assert segment_distances(samples, polyline[:-1], polyline[1:]).max() <= fit.tolerance
+
+
+@pytest.mark.parametrize(("name", "relative", "most"), MOST_POINTS)
+@pytest.mark.slow
+def test_few_points_keep_the_promise_and_the_product_rule(outline, name, relative, most):
+    contour = outline(name)
+    fit = fit_spline(contour, relative * contour.box_diagonal)
+    assert_promise(fit, contour)
+    assert fit.n_control_points <= most
+    gaps = np.diff(fit.curve.breakpoints)
+    assert gaps.max() <= GAP_RATIO * gaps.min() * (1 + 1e-9)
+    u, _ = dense(fit.curve)
+    speed = np.hypot(*fit.curve.to_scipy().derivative()(u).T)
+    weight = np.append(np.repeat(gaps, 400), 0.0)
+    order = np.argsort(speed)
+    middle = np.searchsorted(np.cumsum(weight[order]), 0.5 * weight.sum())
+    assert speed.min() >= 0.99 * SPEED_RATIO * speed[order][middle]
+    assert fit.rule.kept
+    assert fit.rule.n_crossings == fit.rule.n_data_crossings
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize("shape", [flower(), wave()], ids=["closed", "open"])
+@pytest.mark.slow
+def test_every_degree_keeps_the_promise(shape, degree):
+    fit = fit_spline(shape, 0.02, degree=degree)
+    assert fit.curve.degree == degree
+    assert_promise(fit, shape)
+
+
+def test_a_closed_spline_is_smooth_across_its_seam():
+    curve = fit_spline(flower(), 0.01).curve
+    assert curve.periodic
+    begin, end = curve.domain
+    step = 1e-9
+    for derivative in (0, 1, 2):
+        before, after = curve([end - step, begin + step], derivative=derivative)
+        jump = np.hypot(*(after - before))
+        # The next derivative times the step bounds what is no jump.
+        allowed = 4 * step * np.hypot(*curve(curve.breakpoints, derivative=derivative + 1).T).max()
+        assert jump <= allowed + 1e-9 * np.hypot(*after)
+
+
+def test_an_open_spline_ends_where_the_data_end():
+    contour = wave()
+    curve = fit_spline(contour, 0.05).curve
+    assert np.allclose(curve(curve.domain), contour.points[[0, -1]], rtol=0, atol=1e-12 * 20)
+
+
+def test_a_circle_needs_few_points():
+    assert fit_spline(Contour(on_circle(400), closed=True), 0.01).n_control_points <= 7
+
+
+def test_a_straight_line_needs_four_points():
+    line = Contour(np.column_stack([np.linspace(0, 9, 50), np.linspace(0, 3, 50)]), closed=False)
+    assert fit_spline(line, 0.01).n_control_points == 4
+
+
+@pytest.mark.parametrize("shift", [1, 77])
+def test_first_point_and_direction_do_not_matter(shift):
+    points = flower().points * (1.0, 0.7)
+    curve = fit_spline(Contour(points, closed=True), 0.02).curve
+    again = fit_spline(Contour(np.roll(points, shift, axis=0), closed=True), 0.02).curve
+    assert np.array_equal(curve.knots, again.knots)
+    assert np.array_equal(curve.control_points, again.control_points)
+    back = fit_spline(Contour(np.roll(points[::-1], shift, axis=0), closed=True), 0.02).curve
+    # One of the two runs against the canonical order: the same points in reverse, one rounding of
+    # each knot.
+    assert sorted(back.control_points.tolist()) == sorted(curve.control_points.tolist())
+    at = np.linspace(0.0, 1.0, 101)
+    assert back(1.0 - at) == pytest.approx(curve(at), abs=1e-12)
+
+
+@pytest.mark.parametrize(("scale", "shift"), [(1e-9, 0.0), (1e9, 0.0), (1.0, 1e6)])
+def test_size_and_place_of_the_data_do_not_matter(scale, shift):
+    contour = wave()
+    other = Contour(moved(contour.points, 0.4, scale, (shift, -shift)), closed=False)
+    fit = fit_spline(other, 0.05 * scale)
+    assert_promise(fit, other)
+    assert fit.n_control_points <= 1.1 * fit_spline(contour, 0.05).n_control_points + 1
+
+
+def test_sparse_polygons_and_spacing_that_varies_a_thousandfold():
+    square = Contour([(0, 0), (1, 0), (1, 1), (0, 1)], closed=True)
+    uneven = np.concatenate([np.linspace(0, 0.01, 30), np.linspace(0.02, 10, 15)])
+    bend = Contour(np.column_stack([uneven, np.sin(uneven)]), closed=False)
+    for contour in (square, rectangle(8, 5), bend):
+        assert_promise(fit_spline(contour, 0.01), contour)
+
+
+def test_self_intersections_of_the_data_stay():
+    t = np.linspace(0, 2 * np.pi, 300, endpoint=False)
+    eight = Contour(np.column_stack([np.sin(t), np.sin(2 * t)]), closed=True)
+    fit = fit_spline(eight, 0.005)
+    assert_promise(fit, eight)
+    assert fit.rule.n_crossings == fit.rule.n_data_crossings == 1
+
+
+@pytest.mark.slow
+def test_more_effort_never_breaks_the_promise():
+    contour = flower(petals=7)
+    counts = []
+    for effort in ("fast", "balanced", "smallest"):
+        fit = fit_spline(contour, 0.01, effort=effort)
+        assert_promise(fit, contour)
+        counts.append(fit.n_control_points)
+    assert counts[1] <= counts[0]
+
+
+def test_the_callback_sees_the_stages_and_ends_the_search():
+    # The first stage removes the cheapest knots, the second insists on the others.
+    monitor = Monitor(lambda record: record.iteration == 1)
+    fit = fit_spline(flower(), 0.02, monitor=monitor)
+    assert monitor.ended is End.CANCELLED
+    assert fit.kept
+    first, second = (record.cost for record in monitor.history)
+    assert first >= second == fit.n_control_points
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        ({"tolerance": 0.0}, "tolerance"),
+        ({"tolerance": float("nan")}, "tolerance"),
+        ({"tolerance": 0.1, "effort": "much"}, "effort"),
+        ({"tolerance": 0.1, "degree": 10}, "degree"),
+    ],
+)
+def test_bad_arguments_are_named(arguments, named):
+    with pytest.raises(InvalidInputError, match=named):
+        fit_spline(flower(), **arguments)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("folder", ["airfoils", "icons", "leaves", "strokes", "gps_tracks"])
+def test_the_promise_over_the_corpus(more_outlines, folder):
+    for name, contour in more_outlines(folder, 12):
+        fit = fit_spline(contour, 0.005 * contour.box_diagonal, effort="fast")
+        assert fit.kept, name

@@ -1,0 +1,39 @@
+"""How far points beside a slit move apart."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.testing import assert_allclose
+
+import shapespline as ss
+from shapespline.fitting.repair.assignment import DataRun
+from shapespline.fitting.repair.clearance import Sides, moved
+
+
+def trail(contour):
+    return DataRun(contour.points, contour.arc_length[: len(contour)])
+
+
+def test_what_lies_across_a_slit_by_hand():
+    hairpin = ss.Contour([(0, 0), (4, 0), (8, 0), (8, 1), (4, 1), (0, 1)], closed=False)
+    across = Sides.of([hairpin]).across(trail(hairpin), 0, least=0.0)
+    # The ways around are 17, 9 and 1: the last is no slit.
+    assert_allclose(across[[0, 1, 4, 5]], [(0, -1), (0, -1), (0, 1), (0, 1)])
+    assert np.isinf(across[[2, 3]]).all()
+    far = Sides.of([hairpin]).across(trail(hairpin), 0, least=10.0)
+    assert np.isinf(far).all(axis=1).tolist() == [False, True, True, True, True, False]
+    # A closed one is as short the other way around; another outline is always another side.
+    ring = ss.Contour(hairpin.points, closed=True)
+    assert np.isinf(Sides.of([ring]).across(trail(ring), 0, least=0.0)[0]).all()
+    other = ss.Contour(hairpin.points + np.array([0, 3]), closed=False)
+    assert_allclose(Sides.of([ring, other]).across(trail(ring), 0, least=0.0)[3], (0, -2))
+
+
+def test_points_move_apart_and_no_farther_than_the_room():
+    within, room = 0.75, 0.25
+    points = np.array([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0)])
+    across = np.array([(0.0, 1.2), (0.0, 0.1), (np.inf, np.inf), (0.0, 9.0)])
+    feet = points + np.array([(0.0, -1.0), (0.0, 1.0), (0.0, 1.0), (0.0, -0.5)])
+    offsets = moved(points, feet, across, within, room) - points
+    # Half the gap, 0.6, and 0.15 more than a quarter towards the curve: beyond what is missing.
+    assert_allclose(offsets, [(0, 0.15), (0, 0.25), (0, 0.25), (0, -0.125)], atol=1e-15)

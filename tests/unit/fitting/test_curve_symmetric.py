@@ -1,0 +1,74 @@
+"""fit_curve with symmetric=True: mirrored where the data are, and otherwise as ever."""
+
+import numpy as np
+import pytest
+from tests.support.shapes import flower, moved, wave
+
+from shapespline import Contour, InvalidInputError, fit_curve
+from shapespline.analysis.mirror import find_mirror
+from shapespline.analysis.normalization import THINNING
+
+
+def keyhole(n=240):
+    """A closed outline with corners, curves and lines, symmetric about x = 0."""
+    t = np.linspace(-0.35 * np.pi, 1.35 * np.pi, n)
+    arc = np.column_stack([3 * np.cos(t), 6 + 3 * np.sin(t)])
+    down = np.linspace(0, 1, n // 4)[1:, None]
+    left = arc[-1] + down * (np.array([-4.0, 0.0]) - arc[-1])
+    base = np.array([-4.0, 0.0]) + down * np.array([8.0, 0.0])
+    right = base[-1] + down[:-1] * (arc[0] - base[-1])
+    return np.concatenate([arc, left, base, right])
+
+
+def image_error(fit, mirror):
+    """Largest distance from the image of a control point to the nearest control point."""
+    points = np.concatenate([piece.control_points[:-1] for piece in fit.pieces])
+    image = mirror.reflected(points)
+    return np.sqrt(((image[:, None] - points) ** 2).sum(axis=-1)).min(axis=1).max()
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.3, 1.2, 2.5])
+@pytest.mark.parametrize("shift", [0, 77])
+@pytest.mark.parametrize("backwards", [False, True])
+def test_a_symmetric_outline_gets_a_symmetric_curve(angle, shift, backwards):
+    points = np.roll(moved(keyhole(), angle, 1.5, (4, -2)), shift, axis=0)
+    contour = Contour(points[::-1] if backwards else points, closed=True)
+    fit = fit_curve(contour, tolerance=0.02, symmetric=True)
+    assert fit.kept
+    mirror = find_mirror(contour)
+    axis = moved([(0, 1)], angle)[0]
+    # The axis is found to a part of the sampling step; what is left shows in the mirror's error.
+    assert abs(mirror.direction @ axis) == pytest.approx(1.0, abs=1e-6)
+    # This axis is that of all points, the fit's that of the thinned ones.
+    assert image_error(fit, mirror) <= THINNING * 0.02
+    plain = fit_curve(contour, tolerance=0.02)
+    # A node and a curve on either side where the axis crosses.
+    assert fit.n_stored_points <= plain.n_stored_points + 6
+
+
+def test_what_is_not_symmetric_has_no_axis():
+    hook = np.concatenate([keyhole(), [[9.0, 1.0], [8.0, -2.0]]])
+    assert find_mirror(Contour(hook, closed=True)) is None
+    lopsided = Contour(keyhole() * (1, 1) + 0.3 * (keyhole()[:, :1] > 2), closed=True)
+    plain = fit_curve(lopsided, tolerance=0.02)
+    asked = fit_curve(lopsided, tolerance=0.02, symmetric=True)
+    assert asked.kept
+    assert asked.n_stored_points == plain.n_stored_points
+
+
+def test_open_outlines_are_fitted_as_ever():
+    plain, asked = (fit_curve(wave(), tolerance=0.02, symmetric=on) for on in (False, True))
+    assert (plain.spline.control_points == asked.spline.control_points).all()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"symmetric": 1}, "symmetric must be True or False"),
+        ({"symmetric": True, "form": "spline"}, "form='pieces'"),
+        ({"symmetric": True, "tolerance": None}, "within a tolerance"),
+    ],
+)
+def test_bad_arguments(arguments, message):
+    with pytest.raises(InvalidInputError, match=message):
+        fit_curve(flower(), **{"tolerance": 0.05, **arguments})

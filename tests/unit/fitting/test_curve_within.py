@@ -1,0 +1,127 @@
+"""fit_curve within a tolerance: what the curve is made of, and what a caller may ask for."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_array_equal
+from tests.support.promise import checked
+from tests.support.shapes import flower
+
+from shapespline import Contour, InvalidInputError, fit_curve
+from shapespline.engines.pieces.engine import fit_pieces
+from shapespline.fitting.within import tolerance_length
+
+
+def test_joints_turn_at_corners_only(outline):
+    fit = fit_curve(outline("hand620_closed"), tolerance=0.1)
+    pieces, breakpoints = fit.spline.beziers()
+    before = np.roll(pieces[:, -1] - pieces[:, -2], 1, axis=0)
+    after = pieces[:, 1] - pieces[:, 0]
+    turn = np.abs(
+        np.arctan2(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(1))
+    )
+    smooth = ~np.isin(breakpoints[:-1], fit.corners)
+    assert np.degrees(turn[smooth]).max() <= 1.01
+    assert 8 <= len(fit.corners) <= 20
+
+
+def test_pieces_are_the_curve(outline):
+    fit = fit_curve(outline("hand620_closed"), tolerance=0.1)
+    assert {piece.kind for piece in fit.pieces} <= {"line", "bezier", "spline"}
+    ends = np.array([piece.control_points[[0, -1]] for piece in fit.pieces])
+    assert_array_equal(ends[:, 1], np.roll(ends[:, 0], -1, axis=0))
+    joints = fit.spline(fit.spline.breakpoints)
+    for start in ends[:, 0]:
+        assert np.hypot(*(joints - start).T).min() < 1e-9 * fit.contour.box_diagonal
+    assert fit.n_stored_points == sum(len(piece.control_points) - 1 for piece in fit.pieces)
+
+
+def test_a_polygon_becomes_its_corners():
+    corners = np.array([(0.0, 0.0), (7.0, 1.0), (5.0, 6.0), (1.0, 4.0)])
+    sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+    points = np.concatenate([np.linspace(a, b, 40, endpoint=False) for a, b in sides])
+    fit = checked(fit_curve(points, closed=True, tolerance=0.01), 0.01)
+    assert [piece.kind for piece in fit.pieces] == ["line"] * 4
+    assert fit.n_stored_points == len(fit.corners) == 4
+
+
+def test_a_smooth_closed_outline_is_one_periodic_spline():
+    t = 2 * np.pi * np.arange(300) / 300
+    fit = fit_curve(np.column_stack([3 * np.cos(t), np.sin(t)]), tolerance=0.005)
+    assert fit.spline.periodic
+    assert fit.corners.size == 0
+    assert fit.n_stored_points == fit.n_control_points <= 10
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize("form", ["pieces", "spline"])
+@pytest.mark.slow
+def test_degrees(form, degree):
+    fit = checked(fit_curve(flower(240), tolerance=0.05, degree=degree, form=form), 0.05)
+    assert fit.degree == degree
+
+
+def test_corners_given_by_their_indices(outline):
+    contour = Contour([(0, 0), (4, 0), (4, 4), (0, 4)], closed=True).resampled(160)
+    fit = checked(fit_curve(contour, tolerance=0.02, corners=[0, 40, 80, 120]), 0.02)
+    assert len(fit.corners) == 4
+    smooth = fit_curve(contour, tolerance=0.2, corners=None)
+    assert smooth.n_stored_points > 4
+
+
+@pytest.mark.slow
+def test_more_effort_is_never_larger(outline):
+    balanced, smallest = (
+        fit_curve(outline("hand620_closed"), tolerance=0.1, effort=effort).n_stored_points
+        for effort in ("balanced", "smallest")
+    )
+    assert smallest <= balanced
+
+
+def test_a_tolerance_as_a_part_of_the_diagonal(outline):
+    contour = outline("loop500_open")
+    fit = fit_curve(contour, tolerance="0.5%")
+    assert fit.tolerance == 0.005 * contour.box_diagonal
+    assert tolerance_length("0.25", contour) == tolerance_length(0.25, contour) == 0.25
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"tolerance": 0}, r"tolerance must be a positive length in data units.* got 0$"),
+        ({"tolerance": -1.0}, "tolerance must be a positive length"),
+        ({"tolerance": np.nan}, "tolerance must be a positive length"),
+        ({"tolerance": "a bit"}, "tolerance must be a positive length .* got 'a bit'"),
+        ({"tolerance": "5 %%"}, "tolerance must be a positive length"),
+        ({"tolerance": [1]}, "tolerance must be a positive length"),
+        ({"tolerance": 0.1, "n_control_points": 9}, "exclude each other"),
+        ({"tolerance": 0.1, "form": "arcs"}, "form must be one of pieces, spline, got 'arcs'"),
+        ({"tolerance": 0.1, "effort": "max"}, "effort must be one of fast, balanced, smallest"),
+        ({"tolerance": 0.1, "corners": "sharp"}, "corners must be 'auto', 'free', None or indices"),
+        ({"tolerance": 0.1, "corners": [3, 160]}, "corners must be .* indices below 160"),
+        ({"tolerance": 0.1, "corners": [0.5]}, "corners must be"),
+        ({"tolerance": 0.1, "corners": [1], "form": "spline"}, "corners must be 'auto', 'free'"),
+        ({"tolerance": 0.1, "weights": np.ones(159)}, r"weights must have shape \(160,\)"),
+        ({"corners": None, "n_control_points": 12}, "corners does not act with n_control"),
+        ({"form": "spline", "n_control_points": 12}, "form does not act with n_control"),
+        ({"effort": "fast", "n_control_points": 12}, "effort does not act with n_control"),
+        ({"corners": [200]}, "corners must be"),
+    ],
+)
+def test_bad_arguments(arguments, message):
+    with pytest.raises(InvalidInputError, match=message):
+        fit_curve(flower(160), **arguments)
+
+
+def test_no_facets_where_a_smooth_curve_is_no_larger():
+    """Loops of a pen, coarsely recorded: lines would take fewer points than curves with corners."""
+    t = np.linspace(0, 6 * np.pi, 60)
+    loops = np.column_stack([6 * t + 22 * np.sin(t), 25 * np.cos(t) + 6 * np.sin(0.4 * t)])
+    contour = Contour(np.round(loops), closed=False)
+    lines = fit_pieces(contour, 0.2)
+    assert {piece.kind for piece in lines.pieces} == {"line"}
+    fit = checked(fit_curve(contour, tolerance=0.2), 0.2)
+    assert not fit.sections
+    assert fit.n_stored_points < 0.8 * lines.n_stored_points
+    # Who names corners gets them.
+    named = fit_curve(contour, tolerance=0.2, corners=[20, 40])
+    assert named.sections

@@ -1,0 +1,57 @@
+"""compare: distances between sets of curves, by hand and by symmetry."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.support.shapes import on_circle
+
+import shapespline as ss
+
+
+def test_circles_of_two_radii():
+    small = ss.Contour(on_circle(4000), closed=True)
+    large = ss.Contour(3 * on_circle(4000), closed=True)
+    found = ss.compare(small, large)
+    sagitta = 3 * (1 - np.cos(np.pi / 4000))  # of the polylines that stand for the circles
+    for distance in (found.forward_max, found.reverse_max, found.forward_rms, found.reverse_rms):
+        assert abs(distance - 2) <= sagitta
+    assert found.hausdorff_distance == max(found.forward_max, found.reverse_max)
+
+
+def test_other_pieces_of_the_same_curves_lie_on_them():
+    square = ss.Contour([(0, 0), (4, 0), (4, 4), (0, 4)], closed=True)
+    sides = [
+        ss.Contour([(0, 0), (4, 0), (4, 4)], closed=False),
+        ss.Contour([(4, 4), (0, 4), (0, 0)], closed=False),
+    ]
+    found = ss.compare(square, ss.Shape(sides))
+    assert found.hausdorff_distance <= 8 * np.finfo(float).eps
+
+
+def test_a_missing_outline_is_seen_from_one_side_only():
+    near = ss.Contour([(0, 0), (1, 0)], closed=False)
+    far = ss.Contour([(0, 9), (1, 9)], closed=False)
+    found = ss.compare(ss.Shape([near, far]), near)
+    assert abs(found.forward_max - 9) <= 9 * np.finfo(float).eps
+    assert found.reverse_max == 0
+
+
+def test_the_spacing_bounds_what_lies_between_samples():
+    roof = ss.Contour([(0, 0), (1, 1), (2, 0)], closed=False)
+    found = ss.compare(roof, ss.Contour([(0, 0), (2, 0)], closed=False))
+    assert found.forward_max <= 1 <= found.forward_max + found.spacing / 2
+    assert found.spacing < 1e-3
+
+
+def test_fits_and_drawings_compare_by_their_curves():
+    contour = ss.Contour(on_circle(200), closed=True)
+    fit = ss.fit_curve(contour, tolerance=0.01)
+    found = ss.compare(contour, fit)
+    assert found == ss.compare(contour, ss.Drawing([fit])) == ss.compare(contour, fit.spline)
+    assert found.hausdorff_distance <= fit.hausdorff_distance + found.spacing / 2
+
+
+def test_anything_else_is_refused():
+    with pytest.raises(ss.InvalidInputError, match="second must be a Drawing, Fit, Shape"):
+        ss.compare(ss.Contour([(0, 0), (1, 0)]), "logo.svg")

@@ -1,0 +1,78 @@
+"""Pieces as one B-spline: the same curve, the right knots."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import BSpline
+from tests.support.pieces import CUBIC, LINE, QUADRATIC, piece
+
+from shapespline.geometry.joining import elevated, joined
+
+
+def spline_piece(rng, inner, begin):
+    points = np.concatenate([[begin], rng.uniform(-5, 5, (3 + len(inner), 2))])
+    return piece([0, 0, 0, 0, *inner, 1, 1, 1, 1], points)
+
+
+def chain(rng):
+    """A line, a quadratic, a cubic, a spline, end to end."""
+    line = piece(LINE, [(0, 0), (3, 1)])
+    bend = piece(QUADRATIC, [(3, 1), (4, 4), (6, 2)])
+    curve = piece(CUBIC, [(6, 2), (8, 1), (9, 5), (11, 3)])
+    return [line, bend, curve, spline_piece(rng, [0.2, 0.5, 0.5, 0.9], (11, 3))]
+
+
+@pytest.mark.parametrize("degree", range(3, 10))
+def test_elevation_leaves_the_curve_as_it_is(rng_pieces, degree):
+    u = np.linspace(0, 1, 300)
+    for part in rng_pieces:
+        raised = elevated(part, degree)
+        assert raised.degree == degree
+        before = BSpline(part.knots, part.control_points, part.degree)(u)
+        after = BSpline(raised.knots, raised.control_points, degree)(u)
+        # Means of at most 84 blossoms, each a few roundings of numbers up to 20.
+        assert np.abs(after - before).max() < 1e-12
+
+
+@pytest.fixture
+def rng_pieces():
+    return chain(np.random.default_rng(4))
+
+
+@pytest.mark.parametrize("degree", [3, 4, 5, 9])
+def test_joined_is_the_pieces_end_to_end(rng_pieces, degree):
+    whole = joined(rng_pieces, degree)
+    assert whole.domain == (0.0, 1.0)
+    full = [u for u in whole.breakpoints if np.count_nonzero(whole.knots == u) >= degree]
+    assert len(full) == len(rng_pieces) + 1
+    for part, a, b in zip(rng_pieces, full, full[1:], strict=False):
+        u = np.linspace(0, 1, 100)[:-1]
+        expected = BSpline(part.knots, part.control_points, part.degree)(u)
+        assert np.abs(whole(a + u * (b - a)) - expected).max() < 1e-11
+
+
+def test_a_common_tangent_saves_a_knot_and_the_curve_is_c1():
+    line = piece(LINE, [(0, 0), (4, 0)])
+    bend = piece(CUBIC, [(4, 0), (5, 0), (6, 1), (6, 3)])
+    whole = joined([line, bend], 3)
+    joint = whole.breakpoints[1]
+    assert np.count_nonzero(whole.knots == joint) == 2
+    assert whole([joint])[0] == pytest.approx([4, 0], abs=1e-12)
+    before, after = whole([joint - 1e-9, joint + 1e-9], derivative=1)
+    assert before == pytest.approx(after, abs=1e-6)
+    u = np.linspace(0, 1, 50)[:-1]
+    expected = BSpline(bend.knots, bend.control_points, 3)(u)
+    assert np.abs(whole(joint + u * (1 - joint)) - expected).max() < 1e-12
+
+
+def test_a_corner_is_a_knot_of_full_multiplicity():
+    whole = joined([piece(LINE, [(0, 0), (1, 0)]), piece(LINE, [(1, 0), (1, 1)])], 3)
+    assert np.count_nonzero(whole.knots == 0.5) == 3
+
+
+def test_the_highest_degree_is_enough(rng_pieces):
+    assert [joined(rng_pieces[:count]).degree for count in (1, 2, 3, 4)] == [1, 2, 3, 3]
+
+
+def test_lines_only_make_a_spline_of_degree_one():
+    whole = joined([piece(LINE, [(0, 0), (1, 0)]), piece(LINE, [(1, 0), (1, 1)])], 1)
+    assert whole.control_points.tolist() == [[0, 0], [1, 0], [1, 1]]
