@@ -32,7 +32,7 @@ from shapespline.solvers.iteration import Limits
 from shapespline.solvers.quasi_newton import METHODS, make_solver
 
 if TYPE_CHECKING:
-    from shapespline.fitting.optimization import Start
+    from shapespline.engines.least_squares import Start
     from shapespline.geometry.distances import Distances
     from shapespline.monitor import Iteration
     from shapespline.values.fit import Fit

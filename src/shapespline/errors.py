@@ -5,6 +5,8 @@ Every message names the argument, what was expected, what came and what to do ab
 
 from __future__ import annotations
 
+import sys
+
 
 class ShapesplineError(Exception):
     """Root of every error raised on purpose by this package."""
@@ -44,3 +46,14 @@ class SkippedContentWarning(UserWarning):
 
 class ShuffledPointsWarning(UserWarning):
     """Points are hardly in the order of an outline."""
+
+
+def caller_level() -> int:
+    """The ``stacklevel`` at which a warning points at the caller's own line, not into the package.
+
+    To be called where ``warnings.warn`` is called.
+    """
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith(__package__):
+        level, frame = level + 1, frame.f_back
+    return level

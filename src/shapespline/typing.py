@@ -1,8 +1,8 @@
-"""Array types used in signatures; imported for type checking only."""
+"""Types used in signatures: arrays, and the words that options are said in."""
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,4 +10,23 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray: TypeAlias = NDArray[np.float64]
 IntArray: TypeAlias = NDArray[np.int64]
 
-__all__ = ["ArrayLike", "FloatArray", "IntArray"]
+# How a curve within a tolerance is made, and how long it is searched for.
+Form: TypeAlias = Literal["pieces", "spline"]
+Effort: TypeAlias = Literal["fast", "balanced", "smallest"]
+# Of an open curve, as a caller says it: its ends are free, or the first and last point exactly.
+Ends: TypeAlias = Literal["free", "fixed"]
+# Which corners a curve has, where they are not named by their indices.
+CornerChoice: TypeAlias = Literal["auto", "free"]
+# Where the knots of a curve of a given size begin.
+Knots: TypeAlias = Literal["balanced", "dominant", "uniform"]
+
+__all__ = [
+    "ArrayLike",
+    "CornerChoice",
+    "Effort",
+    "Ends",
+    "FloatArray",
+    "Form",
+    "IntArray",
+    "Knots",
+]

@@ -10,7 +10,7 @@ import numpy as np
 from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
-    from shapespline.typing import ArrayLike, FloatArray
+    from shapespline.typing import ArrayLike, FloatArray, IntArray
 
 
 def float_array(values: ArrayLike, name: str) -> FloatArray:
@@ -72,3 +72,26 @@ def whole_number(value: object) -> int | None:
     if isinstance(value, Integral):
         return int(value)
     return int(float(value)) if float(value).is_integer() else None
+
+
+def checked_choice(name: str, value: object, choices: tuple[str, ...]) -> None:
+    """Raise unless a value is one of some words."""
+    if not (isinstance(value, str) and value in choices):
+        raise InvalidInputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
+
+
+def checked_flag(name: str, value: object) -> bool:
+    """A truth value."""
+    if not isinstance(value, bool | np.bool_):
+        raise InvalidInputError(f"{name} must be True or False, got {value!r}")
+    return bool(value)
+
+
+def checked_indices(name: str, values: ArrayLike, expected: str) -> IntArray:
+    """Indices, sorted, each once; ``expected`` is what the message says of them."""
+    if isinstance(values, str):
+        raise InvalidInputError(f"{name} must be {expected}, got {values!r}")
+    given = float_array(values, name)
+    if given.ndim > 1 or (given != np.floor(given)).any() or (given < 0).any():
+        raise InvalidInputError(f"{name} must be {expected}, got {values!r}")
+    return np.unique(given.ravel().astype(np.int64))

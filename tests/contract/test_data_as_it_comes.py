@@ -7,7 +7,7 @@ import pytest
 from benchmarks.outside_metric import two_sided
 
 from shapespline import Contour, DroppedPointsWarning, Status, fit_curve
-from shapespline.fitting.within import tolerance_length
+from shapespline.fitting.request import tolerance_length
 
 # Noise alone looks shuffled, and is: what comes of it has to be true all the same.
 pytestmark = pytest.mark.filterwarnings("ignore::shapespline.ShuffledPointsWarning")

@@ -9,7 +9,7 @@ from tests.support.promise import checked
 from tests.support.shapes import flower
 
 from shapespline import fit_curve
-from shapespline.fitting.within import tolerance_length
+from shapespline.fitting.request import tolerance_length
 
 PINNED = Path(__file__).with_name("pinned_points.csv")
 # Stored points at a tolerance of 0.1 and 0.5 on a box diagonal of 100, upper bounds: what the

@@ -12,7 +12,7 @@ from shapespline.analysis.normalization import (
 )
 from shapespline.analysis.outliers import find_outliers
 from shapespline.analysis.reconstruction.ordering import Ordering, looks_shuffled, order_points
-from shapespline.analysis.resolution import NOISE_BAND, resolution
+from shapespline.analysis.resolution import NOISE_BAND, Resolution, resolution
 from shapespline.analysis.run_averages import (
     WIDTHS,
     Averages,
@@ -44,6 +44,7 @@ __all__ = [
     "Mirror",
     "NormalizedContour",
     "Ordering",
+    "Resolution",
     "at_end",
     "averaged",
     "averages",

@@ -4,7 +4,19 @@ from shapespline.fitting.curve import fit_curve
 from shapespline.fitting.large import fit_large
 from shapespline.fitting.many import Batch, fit_many
 from shapespline.fitting.optimization import optimize
+from shapespline.fitting.request import Request
+from shapespline.fitting.settings import Settings
 from shapespline.fitting.shape import fit_shape
 from shapespline.fitting.verify import verified_fit
 
-__all__ = ["Batch", "fit_curve", "fit_large", "fit_many", "fit_shape", "optimize", "verified_fit"]
+__all__ = [
+    "Batch",
+    "Request",
+    "Settings",
+    "fit_curve",
+    "fit_large",
+    "fit_many",
+    "fit_shape",
+    "optimize",
+    "verified_fit",
+]

@@ -1,31 +1,47 @@
 """Estimation: the curve behind noisy points, when the caller gives neither tolerance nor size.
 
 The thinnest curve in a band as wide as the noise is a bad estimate. So the outline is smoothed
-first, run by run between its corners, by least squares whose sizes a criterion chooses; the pieces
-are then those that follow the smoothed outline within a few of its own standard errors.
+first, run by run between its corners, by least squares whose sizes a criterion chooses (Mallows'
+C_p); the pieces are then those that follow the smoothed outline within a few of its own standard
+errors.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.analysis import NormalizedContour, find_corners
-from shapespline.engines.least_squares import Balanced, balanced_start
-from shapespline.engines.pieces import SECTION_DEGREE, SHARP_TURN, fit_observed
+from shapespline.analysis import NOISE_BAND, NormalizedContour, resolution
+from shapespline.engines.least_squares import (
+    FINAL_LIMITS,
+    PENALTY,
+    STRAY_WEIGHT,
+    minimized,
+    named_solver,
+    smooth_start,
+)
+from shapespline.engines.pieces import PIECE_DEGREE, fit_observed, pinned_exactly
 from shapespline.errors import DegenerateContourError
-from shapespline.geometry import joined, turn_between, two_sided_distance
-from shapespline.solvers import Limits
-from shapespline.values import Contour
+from shapespline.fitting.problem import Problem
+from shapespline.fitting.request import Estimate, Within
+from shapespline.fitting.runs import Runs
+from shapespline.fitting.settings import DEFAULT_METHOD
+from shapespline.fitting.strategies import summed
+from shapespline.fitting.verify import Candidate
+from shapespline.geometry import joined, reversed_curve, turn_between, two_sided_distance
+from shapespline.values import CORNER_TURN, Contour
 
 if TYPE_CHECKING:
-    from shapespline.engines.pieces import Effort
-    from shapespline.typing import ArrayLike, FloatArray, IntArray
+    from shapespline.analysis import Resolution
+    from shapespline.engines.least_squares import Balanced, Minimized
+    from shapespline.fitting.strategies import Ask, Proposals
+    from shapespline.monitor import Monitor
+    from shapespline.typing import FloatArray, IntArray
     from shapespline.values import Piece
-from shapespline.analysis import NOISE_BAND, resolution
-from shapespline.engines.least_squares import PENALTY, Smoothed, smoothed, straight_line
 
 # A smoothed outline is followed within one of these numbers of its standard errors.
 STANDARD_ERRORS = (1.5, 2.0, 3.0)
@@ -35,17 +51,6 @@ CHARACTER, NO_CORNERS = 1.02, 0.97
 # A datum this many bands away tells that the estimate has missed something: a jump, a spike, a
 # track too sparse to be smoothed.
 FARTHEST = 1.5
-# The start of a least-squares fit has been balanced already: what is left falls by 1e-4 and less.
-FINAL_LIMITS = Limits(max_iterations=300, max_evaluations=1000, relative_decrease=1e-4)
-
-
-def smooth_start(contour: Contour, degree: int, weights: FloatArray | None = None) -> Balanced:
-    """One spline over the whole contour, of the size that the criterion chooses."""
-    shown = resolution(contour)
-    found = smoothed(contour, degree, max(shown.noise, shown.band / NOISE_BAND), weights)
-    if found.start is not None:
-        return found.start
-    return balanced_start(contour, degree + 1, degree, weights, rounds=0, ends="fitted")
 
 
 class Evidence(NamedTuple):
@@ -89,147 +94,191 @@ class Evidence(NamedTuple):
         stored = sum(len(piece.control_points) - 1 for piece in pieces)
         stored += 0 if contour.closed else 1
         sharp = [
-            abs(turn_between(before, after)) > SHARP_TURN
+            abs(turn_between(before, after)) > CORNER_TURN
             for before, after in pairwise([*pieces, *(pieces[:1] if contour.closed else ())])
         ]
         price = PENALTY * stored + np.log(len(contour)) * max(0, sum(sharp) - n_proven)
         return cls(misfit + price, found.hausdorff_distance, stored, n_proven)
 
 
-def estimated_pieces(
-    contour: Contour,
-    noise: float,
-    *,
-    corners: Literal["auto", "free"] | ArrayLike | None = "auto",
-    degree: int = 3,
-    effort: Effort = "balanced",
-) -> tuple[tuple[Piece, ...], Evidence] | None:
-    """Lines, Beziers and small splines behind noisy points, and what the points say of them.
+class Estimation:
+    """What the points of a problem tell of the curve behind them, found once.
 
-    None where there is noise alone: what is left of it, smoothed, is a single point.
-
-    Parameters
-    ----------
-    contour : Contour
-    noise : float
-        Standard deviation across the outline, data units, positive.
-    corners, degree, effort
-        See `fit_pieces`; corners found by "auto" and "free" stay only where the criterion prefers
-        two runs to one.
+    ``ordered`` are the points in canonical order, data units; ``shown`` what they can show.
     """
-    frame = NormalizedContour.of(contour)
-    band = NOISE_BAND * noise
-    noise *= frame.scale
-    work = frame.contour
-    runs = _Runs(work, min(degree, SECTION_DEGREE), noise)
-    if corners is None:
-        at: IntArray = np.empty(0, dtype=np.int64)
-    elif isinstance(corners, str):
-        at = runs.kept_corners()
-    else:
-        at = np.unique(frame.place[np.asarray(corners, dtype=np.int64)])
-    points, size = runs.joined(at)
-    try:
-        outline = Contour.silently(points, work.closed)
-    except DegenerateContourError:
-        return None
-    observed = work.points[np.unique(outline.source, return_index=True)[1]]
-    error = noise * float(np.sqrt(size / len(work)))
-    free = isinstance(corners, str) and corners == "free"
-    found: list[tuple[Evidence, tuple[Piece, ...]]] = []
-    for part in STANDARD_ERRORS:
-        pieces = fit_observed(
-            outline,
-            observed,
-            part * error,
-            noise,
-            corners=None if free else outline.source[at],
-            degree=degree,
-            effort=effort,
+
+    def __init__(self, problem: Problem, monitor: Monitor) -> None:
+        contour = problem.contour
+        self.normalized = NormalizedContour.of(contour)
+        self.ordered = Contour.silently(
+            contour.points[self.normalized.order], contour.closed, accuracy=contour.accuracy
         )
-        said = Evidence.of_pieces(pieces, degree, work, noise, len(at))
-        found.append((said._replace(farthest=said.farthest / frame.scale), pieces))
-    said, pieces = min(found, key=lambda one: (one[0].farthest > FARTHEST * band, one[0].cost))
-    return frame.restored(pieces), said
+        self.shown: Resolution = resolution(self.ordered)
+        self._degree, self._monitor = problem.request.style.degree, monitor
+
+    @cached_property
+    def start(self) -> Balanced:
+        """One spline over all points, of the size that the criterion chooses."""
+        return smooth_start(self.ordered, self._degree, monitor=self._monitor)
+
+    @cached_property
+    def smooth(self) -> Evidence:
+        """What the points say of it."""
+        return Evidence.of_spline(self.start, self.ordered, self.shown.noise)
+
+    def explains(self, evidence: Evidence) -> bool:
+        """Whether a curve comes near all points."""
+        return evidence.farthest <= FARTHEST * self.shown.band
 
 
-class _Runs:
-    """A contour cut at corners, each run smoothed once."""
+@dataclass(frozen=True)
+class ObservedPieces:
+    """Lines, Beziers and small splines behind noisy points, where they tell as much as one spline.
 
-    def __init__(self, contour: Contour, degree: int, noise: float) -> None:
-        self._contour, self._degree, self._noise = contour, degree, noise
-        self._known: dict[tuple[int, int], Smoothed] = {}
+    Corners that "auto" and "free" find stay only where the criterion prefers two runs to one.
+    """
 
-    def kept_corners(self) -> IntArray:
-        """Corners of the data, the faintest first given up where one run costs no more than two."""
-        found = find_corners(self._contour, NOISE_BAND * self._noise)
-        kept = found.indices.tolist()
-        for corner in sorted(kept, key=lambda i: float(found.turns[i])):
-            others = [i for i in kept if i != corner]
-            price = np.log(len(self._contour))
-            if self._cost(others, near=corner) <= self._cost(kept, near=corner) + price:
-                kept = others
-        return np.array(kept, dtype=np.int64)
+    estimation: Estimation
 
-    def joined(self, corners: IntArray) -> tuple[FloatArray, int]:
-        """The smoothed points of all runs, which meet in corners, and their control points."""
-        n = len(self._contour)
-        cut = self._cut(corners.tolist())
-        runs = [self._run(*run) for run in cut]
-        pieces = [run.points.copy() for run in runs]
-        for i in range(0 if len(corners) and self._contour.closed else 1, len(pieces)):
-            self._meet(runs[i - 1], pieces[i - 1], runs[i], pieces[i])
-        points = np.empty((n, 2))
-        for run, piece in zip(cut, pieces, strict=True):
-            points[np.arange(*run) % n] = piece
-        return points, sum(run.n_control_points for run in runs)
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve, if its price is justified and it explains the points."""
+        smooth = self.estimation.smooth
+        found = None if monitor.ended else self._found(problem, monitor)
+        if found is None:
+            return
+        said, pieces = found
+        one_run = len(pieces) == 1 and pieces[0].kind != "line"
+        justified = said.preferred_to(smooth) and not one_run
+        named = not isinstance(problem.request.style.corners, str | None)
+        if (named or justified) and self.estimation.explains(said):
+            yield Candidate(method="estimation", pieces=pieces)
 
-    def _meet(self, before: Smoothed, left: FloatArray, after: Smoothed, right: FloatArray) -> None:
-        """Ends two runs where their tangents cross, or half-way if that is beyond the noise."""
-        u, v = before.tangent(-1), after.tangent(0)
-        gap, turn = right[0] - left[-1], u[0] * v[1] - u[1] * v[0]
-        corner = left[-1] + 0.5 * gap
-        if abs(turn) > 1e-3:
-            crossing = left[-1] + (gap[0] * v[1] - gap[1] * v[0]) / turn * u
-            if np.hypot(*(crossing - corner)) <= NOISE_BAND * self._noise:
-                corner = crossing
-        reach = NOISE_BAND * self._noise
-        for points, direction in ((left, u), (right, -v)):
-            off = points - corner
-            beyond = (off @ direction > 0) & (np.hypot(off[:, 0], off[:, 1]) <= reach)
-            points[beyond] = corner
-        left[-1] = right[0] = corner
+    def _found(
+        self, problem: Problem, monitor: Monitor
+    ) -> tuple[Evidence, tuple[Piece, ...]] | None:
+        """The cheapest pieces, data units, and what the points say of them.
 
-    def _cost(self, corners: list[int], near: int) -> float:
-        """Of the runs that hold a point."""
-        n = len(self._contour)
-        return sum(
-            self._run(*run).cost
-            for run in self._cut(corners)
-            if (near - run[0]) % n < run[1] - run[0]
-        )
-
-    def _cut(self, corners: list[int]) -> list[tuple[int, int]]:
-        """First and one past the last point of each run; neighbours share their corner."""
-        n = len(self._contour)
-        if not self._contour.closed:
-            ends = sorted({0, *corners, n - 1})
-            return [(a, b + 1) for a, b in pairwise(ends)]
-        if not corners:
-            return [(0, n)]
-        around = sorted(corners)
-        return [(a, b + 1) for a, b in zip(around, [*around[1:], around[0] + n], strict=True)]
-
-    def _run(self, begin: int, end: int) -> Smoothed:
-        if (begin, end) not in self._known:
-            n = len(self._contour)
-            if end - begin == n and self._contour.closed:
-                run = self._contour
-            else:
-                points = self._contour.points[np.arange(begin, end) % n]
-                run = Contour.silently(points, closed=False)
-            few = len(run) <= self._degree + 1
-            self._known[begin, end] = (
-                straight_line(run, self._noise) if few else smoothed(run, self._degree, self._noise)
+        None where there is noise alone (what is left of it, smoothed, is a single point), or the
+        monitor ended the search.
+        """
+        request, normalized = problem.request, self.estimation.normalized
+        shown, work, degree = self.estimation.shown, normalized.contour, request.style.degree
+        noise = shown.noise * normalized.scale
+        runs = Runs(work, min(degree, PIECE_DEGREE), noise, monitor)
+        at = self._corners(problem, runs)
+        points, size = runs.joined(at)
+        try:
+            outline = Contour.silently(points, work.closed)
+        except DegenerateContourError:
+            return None
+        observed = work.points[np.unique(outline.source, return_index=True)[1]]
+        error = noise * float(np.sqrt(size / len(work)))
+        found: list[tuple[Evidence, tuple[Piece, ...]]] = []
+        for part in STANDARD_ERRORS:
+            pieces = fit_observed(
+                outline,
+                observed,
+                part * error,
+                noise,
+                corners=None if request.style.free else outline.source[at],
+                degree=degree,
+                effort=request.effort,
+                monitor=monitor,
             )
-        return self._known[begin, end]
+            if not pieces or monitor.ended:
+                return None
+            if request.constraints.ends and not work.closed:
+                pinned_exactly(pieces, work.points[[0, -1]])
+            said = Evidence.of_pieces(pieces, degree, work, noise, len(at))
+            found.append((said._replace(farthest=said.farthest / normalized.scale), pieces))
+        band = FARTHEST * NOISE_BAND * shown.noise
+        said, pieces = min(found, key=lambda one: (one[0].farthest > band, one[0].cost))
+        restored = normalized.restored(pieces)
+        if request.constraints.ends and not work.closed:
+            pinned_exactly(restored, problem.contour.points[[0, -1]])
+        return said, restored
+
+    def _corners(self, problem: Problem, runs: Runs) -> IntArray:
+        """The corners that the data prove, or those that were named, in canonical order."""
+        corners = problem.request.style.corners
+        if corners is None:
+            return np.empty(0, dtype=np.int64)
+        if isinstance(corners, str):
+            return runs.kept_corners()
+        return np.unique(self.estimation.normalized.place[np.asarray(corners, dtype=np.int64)])
+
+
+@dataclass(frozen=True)
+class SmoothedSpline:
+    """One least-squares spline behind noisy points, of the size that the criterion chooses."""
+
+    estimation: Estimation
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve, if it explains the points."""
+        if not self.estimation.explains(self.estimation.smooth):
+            return
+        ordered, normalized = self.estimation.ordered, self.estimation.normalized
+        found = _finished(problem, ordered, self.estimation.start, None, monitor)
+        spline, candidate = found.spline, _candidate(problem, found)
+        distances = two_sided_distance(spline, ordered)
+        parameters = distances.parameters[normalized.place]
+        if normalized.reversed:
+            spline, parameters = reversed_curve(spline), 1.0 - parameters
+        found_distances = distances._replace(parameters=parameters)
+        yield replace(candidate, spline=spline, distances=found_distances)
+
+
+class WeightedSpline:
+    """One least-squares spline of points that weigh differently, its size chosen likewise."""
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve."""
+        contour, weights = problem.contour, summed(problem.request)
+        start = smooth_start(contour, problem.request.style.degree, weights, monitor=monitor)
+        yield _candidate(problem, _finished(problem, contour, start, weights, monitor))
+
+
+def _finished(
+    problem: Problem,
+    contour: Contour,
+    start: Balanced,
+    weights: FloatArray | None,
+    monitor: Monitor,
+) -> Minimized:
+    """Least squares to the end from a start whose size was chosen; free ends leave their noise."""
+    ends = "interpolated" if problem.request.constraints.ends else "fitted"
+    return minimized(
+        contour,
+        start,
+        named_solver(_method(problem))[0],
+        weights=weights,
+        ends=None if contour.closed else ends,
+        stray_weight=STRAY_WEIGHT,
+        limits=FINAL_LIMITS,
+        callback=monitor.iterated,
+    )
+
+
+def _method(problem: Problem) -> str:
+    goal = problem.request.goal
+    return goal.method if isinstance(goal, Estimate) else DEFAULT_METHOD
+
+
+def _candidate(problem: Problem, found: Minimized) -> Candidate:
+    return Candidate(
+        method=_method(problem), spline=found.spline, run=found.run, history=found.history
+    )
+
+
+@dataclass(frozen=True)
+class InBand:
+    """The smallest curve within what clean points can show."""
+
+    band: float
+    ask: Ask
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve."""
+        found = self.ask(Problem(replace(problem.request, goal=Within(self.band))), monitor).fit
+        yield Candidate(method=found.method, pieces=found.sections, spline=found.spline)

@@ -12,51 +12,30 @@ the machines of a cluster.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.analysis import (
-    GENTLE_TURN,
-    LONGEST_CHORD,
-    NormalizedContour,
-    canonical_reading,
-    find_corners,
-)
+from shapespline.analysis import LONGEST_CHORD
 from shapespline.engines.least_squares import MOST_PASSES, least_squares
-from shapespline.engines.pieces import PiecesProblem
 from shapespline.errors import DegenerateContourError, InvalidInputError
-from shapespline.fitting.verify import final_status, status_of, verified_fit
-from shapespline.fitting.within import Wanted, check_size_alone, fit_within, tolerance_length
-from shapespline.geometry import (
-    CentredCurve,
-    Distances,
-    backwards,
-    reverse_distance,
-    reversed_curve,
-    rounding,
-)
+from shapespline.fitting.request import Request, Style, Within
+from shapespline.fitting.settings import Settings, tolerance_length
+from shapespline.fitting.solve import search
+from shapespline.fitting.streamed import distances_of_all, fit_proxy, with_distances
+from shapespline.fitting.verify import final_status, verified_fit
+from shapespline.geometry import CentredCurve, Distances, reverse_distance, rounding
 from shapespline.monitor import Monitor
 from shapespline.solvers import Stop
-from shapespline.streaming import (
-    FootParameters,
-    LargeFit,
-    Measured,
-    Passes,
-    PointStream,
-    ProxyPolyline,
-    TurnedRows,
-)
-from shapespline.validation import is_number
-from shapespline.values import Contour, Fit, Status, check_count, check_degree
+from shapespline.streaming import FootParameters, LargeFit, Passes, PointStream, ProxyPolyline
+from shapespline.values import Contour, Fit, Status
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from concurrent.futures import Executor
 
-    from shapespline.fitting.within import Effort, Form
     from shapespline.streaming import Seen
-    from shapespline.typing import IntArray
+    from shapespline.typing import CornerChoice, Effort, Form
 
 # Points that scatter around a curve scatter as far around their averages: a polyline that stands
 # for them may be twice as far as the farthest is from the curve, or this part of the box diagonal.
@@ -70,7 +49,7 @@ def fit_large(
     n_control_points: int | None = None,
     closed: bool | None = None,
     degree: int = 3,
-    corners: Literal["auto", "free"] | None = "auto",
+    corners: CornerChoice | None = "auto",
     form: Form = "pieces",
     effort: Effort = "balanced",
     executor: Executor | None = None,
@@ -133,32 +112,25 @@ def fit_large(
     >>> fit_large(ellipse, n_control_points=12).n_control_points
     12
     """
-    degree = check_degree(degree)
     if (tolerance is None) == (n_control_points is None):
         given = "both" if n_control_points is not None else "none"
         raise InvalidInputError(
             f"points are fitted within a tolerance or with n_control_points, got {given}: give one"
         )
-    count = 0
-    if n_control_points is not None:
-        check_size_alone(corners, form, effort)
-        count = check_count(n_control_points, degree)
-    if not (corners is None or corners in ("auto", "free")):
+    if not (corners is None or isinstance(corners, str)):
         raise InvalidInputError(f"corners must be 'auto', 'free' or None, got {corners!r}")
-    for name, value, choices in (
-        ("form", form, ("pieces", "spline")),
-        ("effort", effort, ("fast", "balanced", "smallest")),
-    ):
-        if value not in choices:
-            raise InvalidInputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
-    if not isinstance(tolerance, str | None) and not (
-        is_number(tolerance) and 0 < tolerance < np.inf
-    ):
-        raise InvalidInputError(f"tolerance must be a positive length, got {tolerance!r}")
-    monitor = Monitor(None, time_limit)
+    settings = Settings(
+        tolerance=tolerance,
+        n_control_points=n_control_points,
+        degree=degree,
+        corners=corners,
+        form=form,
+        effort=effort,
+        time_limit=time_limit,
+    )
+    monitor = Monitor(None, settings.time_limit)
     stream = PointStream(points, executor)
     passes = Passes(stream, progress, in_all=3 if n_control_points is None else 3 + MOST_PASSES)
-
     seen = passes.look()
     closed = seen.ends_meet if closed is None else bool(closed)
     if (seen.low == seen.high).all():
@@ -167,33 +139,43 @@ def fit_large(
         )
     box = Contour.silently(np.array([seen.low, seen.high]), closed=False)
     if tolerance is None:
-        return _of_size(passes, seen, closed, count, degree, monitor)
+        return _of_size(passes, seen, closed, settings, monitor)
     length = tolerance_length(tolerance, box)
-    standing = ProxyPolyline.of(passes, seen, closed, length, LONGEST_CHORD * box.box_diagonal)
+    proxy = ProxyPolyline.of(passes, seen, closed, length, LONGEST_CHORD * box.box_diagonal)
     sample = Contour.silently(seen.sample, closed)
-    wanted = Wanted(degree, corners, form, effort)
-    fit = _fitted(standing, sample, stream.n_points, length, wanted, monitor)
+    request = Request(
+        contour=sample,
+        goal=Within(length),
+        style=Style(settings.degree, form, corners),
+        effort=effort,
+    )
+    fit = fit_proxy(proxy, sample, stream.n_points, request, monitor, search)
     curve = CentredCurve.of(fit.spline, fit.contour)
-    found = _distances(fit, passes.measure(curve), standing, stream.n_points)
+    found = distances_of_all(fit, passes.measure(curve), proxy, stream.n_points)
+    return _large(with_distances(fit, found, length, monitor), stream, curve)
+
+
+def _large(fit: Fit, stream: PointStream, curve: CentredCurve) -> LargeFit:
+    """The fit of a stream."""
     named = {name: getattr(fit, name) for name in Fit.__dataclass_fields__}
-    named |= _verified(found, length, monitor)
     return LargeFit(**named, n_points=stream.n_points, feet=FootParameters(stream, curve))
 
 
 def _of_size(
-    passes: Passes, seen: Seen, closed: bool, count: int, degree: int, monitor: Monitor
+    passes: Passes, seen: Seen, closed: bool, settings: Settings, monitor: Monitor
 ) -> LargeFit:
     """Least squares, and the distances of all points."""
-    found = least_squares(passes, seen, closed, count, degree, monitor)
+    count = settings.n_control_points or 0
+    found = least_squares(passes, seen, closed, count, settings.degree, monitor)
     spline, sample, n = found.spline, found.sample, passes.stream.n_points
     curve = CentredCurve.of(spline, sample)
     measured = passes.measure(curve)
-    standing = _standing(passes, seen, closed, float(np.sqrt(measured.largest)))
-    around = Contour.silently(standing.points, closed)
+    proxy = _proxy(passes, seen, closed, float(np.sqrt(measured.largest)))
+    around = Contour.silently(proxy.points, closed)
     distances = Distances(
         float(np.sqrt(measured.largest)) + rounding(spline, around),
         float(np.sqrt(measured.total / n)),
-        reverse_distance(spline, around) + standing.off,
+        reverse_distance(spline, around) + proxy.error_bound,
         curve.nearest(sample.points).parameters,
     )
     fit = verified_fit(
@@ -205,17 +187,17 @@ def _of_size(
         history=found.history,
         distances=distances,
     )
-    named = {name: getattr(fit, name) for name in Fit.__dataclass_fields__}
     figures = f"data to curve {fit.max_distance:.6g}, both ways {fit.hausdorff_distance:.6g}"
     if monitor.ended:
-        named["status"] = final_status(Status.BUDGET.saying(figures), monitor)
+        fit = replace(fit, status=final_status(fit, monitor))
     elif found.run.stop is Stop.EVALUATIONS:
         more = "the sum of squares still falls a little"
-        named["status"] = Status.BUDGET.saying(f"{MOST_PASSES} passes over: {figures}; {more}")
-    return LargeFit(**named, n_points=n, feet=FootParameters(passes.stream, curve))
+        status = Status.BUDGET.saying(f"{MOST_PASSES} passes over: {figures}; {more}")
+        fit = replace(fit, status=status)
+    return _large(fit, passes.stream, curve)
 
 
-def _standing(passes: Passes, seen: Seen, closed: bool, farthest: float) -> ProxyPolyline:
+def _proxy(passes: Passes, seen: Seen, closed: bool, farthest: float) -> ProxyPolyline:
     """Vertices for points that lie so far from a curve at most: none need be nearer to them."""
     diagonal = float(np.hypot(*(seen.high - seen.low)))
     aim = max(NEAR_ENOUGH * farthest, FINEST * diagonal)
@@ -224,122 +206,3 @@ def _standing(passes: Passes, seen: Seen, closed: bool, farthest: float) -> Prox
             return ProxyPolyline.of(passes, seen, closed, aim, LONGEST_CHORD * diagonal)
         except InvalidInputError:  # too many would stay
             aim *= 4.0
-
-
-def fit_all_in_passes(
-    contour: Contour,
-    tolerance: float,
-    wanted: Wanted,
-    monitor: Monitor,
-) -> Fit | None:
-    """The same for a contour in memory, whose order is the canonical one, with all parameters.
-
-    None where nothing smaller can stand for the points, or corners are named among them.
-    """
-    if not isinstance(wanted.corners, str | None):
-        return None
-    start, step = canonical_reading(contour.points, closed=contour.closed)
-    stream = PointStream(TurnedRows(contour.points, start, step))
-    passes = Passes(stream, None, in_all=3)
-    seen = passes.look()
-    longest = LONGEST_CHORD * contour.box_diagonal
-    try:
-        standing = ProxyPolyline.of(passes, seen, contour.closed, tolerance, longest)
-    except InvalidInputError:
-        return None
-    sample = Contour.silently(seen.sample, contour.closed, accuracy=contour.accuracy)
-    n = len(contour)
-    fit = _fitted(standing, sample, n, tolerance, wanted, monitor)
-    curve = CentredCurve.of(fit.spline, fit.contour)
-    parameters = np.empty(n)
-    measured = passes.measure(curve, TurnedRows(parameters, start, step))
-    spline, sections = fit.spline, fit.sections
-    if step < 0:
-        spline, sections = reversed_curve(spline), backwards(sections)
-        np.subtract(1.0, parameters, out=parameters)
-    found = _distances(fit, measured, standing, n)
-    return replace(
-        fit,
-        contour=contour,
-        spline=spline,
-        sections=sections,
-        parameters=parameters if contour.n_given == n else parameters[contour.source],
-        **_verified(found, tolerance, monitor),
-    )
-
-
-def _fitted(
-    standing: ProxyPolyline,
-    sample: Contour,
-    n_points: int,
-    tolerance: float,
-    wanted: Wanted,
-    monitor: Monitor,
-) -> Fit:
-    """The fit to the vertices that stand for all points, within what is left of the tolerance."""
-    thinned = Contour.silently(standing.points, sample.closed, accuracy=sample.accuracy)
-    # Repeated points are gone.
-    indices = standing.indices[np.unique(thinned.source, return_index=True)[1]]
-    aim = tolerance - standing.off
-    outline = _outline(thinned, indices, sample, aim, wanted.corners is not None, n_points)
-    outline = outline._replace(held=wanted.held)  # ends alone
-    return fit_within(thinned, aim, wanted, monitor, outline, sample)
-
-
-def _distances(fit: Fit, measured: Measured, standing: ProxyPolyline, n_points: int) -> Distances:
-    """Of all points, from those that stand for them."""
-    return Distances(
-        float(np.sqrt(measured.largest)) + rounding(fit.spline, fit.contour),
-        float(np.sqrt(measured.total / n_points)),
-        reverse_distance(fit.spline, fit.contour) + standing.off,
-        fit.parameters,
-    )
-
-
-def _verified(found: Distances, tolerance: float, monitor: Monitor) -> dict[str, Any]:
-    """The fields of a Fit that tell of its distances."""
-    return {
-        "max_distance": found.max_distance,
-        "rms_distance": found.rms_distance,
-        "hausdorff_distance": found.hausdorff_distance,
-        "tolerance": tolerance,
-        "status": final_status(status_of(found, tolerance), monitor),
-    }
-
-
-def _outline(
-    thinned: Contour,
-    indices: IntArray,
-    sample: Contour,
-    aim: float,
-    cornered: bool,
-    n_points: int,
-) -> PiecesProblem:
-    """What the search knows: corners found in the sample, if any may be, are vertices near by."""
-    frame = NormalizedContour.of(thinned)
-    seen = frame.taken_over(sample)
-    n = len(thinned)
-    empty = np.empty(0, dtype=np.int64)
-    if not cornered:
-        gentle = np.ones(n, dtype=np.int64)
-        return PiecesProblem(frame, aim * frame.scale, empty, gentle, dense=seen)
-    found = find_corners(sample, aim)
-    stride = n_points / len(sample)
-    beside = np.minimum((indices / stride).astype(np.int64), len(sample) - 1)
-    gentle = (found.turns[beside] < GENTLE_TURN).astype(np.int64)
-    chosen = [_farthest(thinned, indices, stride * at, 2.0 * stride) for at in found.indices]
-    places = np.unique(frame.place[np.array(chosen, dtype=np.int64)]) if chosen else empty
-    return PiecesProblem(frame, aim * frame.scale, places, gentle[frame.order], dense=seen)
-
-
-def _farthest(thinned: Contour, indices: IntArray, middle: float, reach: float) -> int:
-    """Of the vertices near a place the one farthest from the chord across them."""
-    near = np.flatnonzero(np.abs(indices - middle) <= reach)
-    if len(near) == 0:
-        return int(np.abs(indices - middle).argmin())
-    n = len(thinned)
-    ends = np.array([near[0] - 1, near[-1] + 1])
-    ends = ends % n if thinned.closed else np.clip(ends, 0, n - 1)
-    begin, end = thinned.points[ends]
-    (x, y), (dx, dy) = (thinned.points[near] - begin).T, end - begin
-    return int(near[np.abs(x * dy - y * dx).argmax()])

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Sized
 from concurrent.futures import as_completed
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from shapespline.errors import InvalidInputError, ShapesplineError
-from shapespline.fitting.curve import fit_curve
+from shapespline.errors import ShapesplineError
+from shapespline.fitting.request import Request
+from shapespline.fitting.settings import Settings
+from shapespline.fitting.solve import solve
+from shapespline.monitor import Monitor
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -56,7 +58,7 @@ def fit_many(
     *,
     executor: Executor | None = None,
     progress: Callable[[int, int], object] | None = None,
-    **options: object,
+    **options: Any,
 ) -> Batch:
     """Fit a curve to each of many contours; one that fails does not stop the others.
 
@@ -80,7 +82,7 @@ def fit_many(
     Raises
     ------
     InvalidInputError
-        If an option is not one of `fit_curve`.
+        If an option is not one of `fit_curve`, or is not usable whatever the contour.
 
     Examples
     --------
@@ -91,17 +93,12 @@ def fit_many(
     >>> [fit is not None and fit.kept for fit in batch], sorted(batch.failures)
     ([True, False, True], [1])
     """
-    known = set(inspect.signature(fit_curve).parameters) - {"points", "callback"}
-    for name in options:
-        if name not in known:
-            raise InvalidInputError(
-                f"{name} is not an option of fit_many; it takes those of fit_curve:"
-                f" {', '.join(sorted(known))}"
-            )
+    closed = options.pop("closed", None)
+    settings = Settings.from_dict(options)
     given = list(contours)
     outcomes: list[Outcome] = [ShapesplineError("not fitted: the run was cancelled")] * len(given)
     done = 0
-    for indices, found in _completed(given, executor, options):
+    for indices, found in _completed(given, executor, _Asked(closed, settings)):
         for index, outcome in zip(indices, found, strict=True):
             outcomes[index] = outcome
         done += len(indices)
@@ -115,19 +112,19 @@ def fit_many(
 def _completed(
     contours: Sequence[ArrayLike | Contour],
     executor: Executor | None,
-    options: Mapping[str, object],
+    asked: _Asked,
 ) -> Iterator[tuple[range, Sequence[Outcome]]]:
     """Tasks as they are done; leaving the loop early cancels those that have not begun."""
     if executor is None:
         for index, contour in enumerate(contours):
-            yield range(index, index + 1), _fit_all([contour], options)
+            yield range(index, index + 1), _fit_all([contour], asked)
         return
     if hasattr(executor, "get_executor"):  # a dask client
         executor = executor.get_executor()
     futures: dict[Future[list[Outcome]], range] = {}
     try:
         for task in _tasks(contours):
-            futures[executor.submit(_fit_all, contours[task.start : task.stop], options)] = task
+            futures[executor.submit(_fit_all, contours[task.start : task.stop], asked)] = task
         for future in as_completed(futures):
             error = future.exception()
             task = futures[future]
@@ -154,14 +151,20 @@ def _tasks(contours: Sequence[ArrayLike | Contour]) -> Iterator[range]:
         yield range(begin, len(contours))
 
 
-def _fit_all(
-    contours: Sequence[ArrayLike | Contour], options: Mapping[str, object]
-) -> list[Outcome]:
+class _Asked(NamedTuple):
+    """What is asked of every contour."""
+
+    closed: object
+    settings: Settings
+
+
+def _fit_all(contours: Sequence[ArrayLike | Contour], asked: _Asked) -> list[Outcome]:
     """The fit of each contour, or the exception that it raised."""
     outcomes: list[Outcome] = []
     for contour in contours:
         try:
-            outcomes.append(fit_curve(contour, **options))  # type: ignore[arg-type]
+            request = Request.of(contour, asked.closed, asked.settings)  # type: ignore[arg-type]
+            outcomes.append(solve(request, Monitor(None, asked.settings.time_limit)))
         except Exception as error:  # whatever it is, it concerns this contour alone
             outcomes.append(error)
     return outcomes

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, Protocol
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from shapespline.analysis import shared_arcs
 from shapespline.errors import InvalidInputError
-from shapespline.fitting.curve import fit_curve
-from shapespline.fitting.repair.crossings import uncrossed
-from shapespline.fitting.verify import verified_fit
-from shapespline.fitting.within import Effort, Ends, Form, tolerance_length
+from shapespline.fitting.problem import Problem
+from shapespline.fitting.repair import uncrossed
+from shapespline.fitting.request import Request
+from shapespline.fitting.settings import Settings, tolerance_length
+from shapespline.fitting.solve import search, solve
+from shapespline.fitting.verify import finished, verified_fit
 from shapespline.geometry import backwards, joined, reversed_curve
+from shapespline.monitor import Monitor
+from shapespline.validation import checked_flag
 from shapespline.values import Contour, Drawing, Shape
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable
 
-    from shapespline.fitting.repair.refit import Tangents
     from shapespline.monitor import Callback
+    from shapespline.typing import CornerChoice, Effort, Ends, Form
     from shapespline.values import Fit, Piece
 
 # Of the tolerance: points of two contours that are no farther apart are one point of a boundary.
@@ -32,7 +37,7 @@ def fit_shape(
     tolerance: float | str | None = None,
     n_control_points: int | None = None,
     degree: int = 3,
-    corners: Literal["auto", "free"] | None = "auto",
+    corners: CornerChoice | None = "auto",
     form: Form = "pieces",
     effort: Effort = "balanced",
     method: str = "levenberg-marquardt",
@@ -83,83 +88,93 @@ def fit_shape(
             f"shape must be a Shape, got {type(shape).__name__};"
             " make one with Shape([contour]), or call fit_curve"
         )
-    if isinstance(tolerance, str):
-        everything = Contour.silently(np.concatenate([c.points for c in shape]), closed=False)
-        tolerance = tolerance_length(tolerance, everything)
+    settings = Settings(
+        tolerance=tolerance,
+        n_control_points=n_control_points,
+        degree=degree,
+        corners=corners,
+        form=form,
+        ends=ends,
+        symmetric=symmetric,
+        effort=effort,
+        outliers=outliers,
+        method=method,
+        time_limit=time_limit,
+    )
+    request = DrawingRequest.of(shape, settings, shared_boundaries)
+    return Drawing(_solved(request, callback), shape.parents, shape.frame, shape.unit)
 
-    def fit(contour: Contour, within: float | None, ends: Ends = ends) -> Fit:
-        return fit_curve(
-            contour,
-            tolerance=within,
-            n_control_points=n_control_points,
-            degree=degree,
-            corners=corners,
-            form=form,
-            effort=effort,
-            method=method,
-            callback=callback,
-            time_limit=time_limit,
-            ends=ends,
-            symmetric=symmetric,
-            outliers=outliers,
-        )
 
-    def closer(part: Contour, within: float, tangents: Tangents, through: Sequence[int]) -> Fit:
-        free = corners == "free" or all(tangent is None for tangent in tangents)
-        return fit_curve(
-            part,
-            tolerance=within,
-            degree=degree,
-            corners=corners,
-            effort=effort,
-            ends="fixed",
-            end_tangents=None if free else tangents,
-            through=through or None,
-        )
+@dataclass(frozen=True, eq=False)
+class DrawingRequest:
+    """What is asked of a shape: settings for each contour, and what belongs to several of them.
 
-    if shared_boundaries:
-        if tolerance is None or outliers:
+    ``settings`` hold a tolerance as a length. Boundaries that contours share are fitted once if
+    ``shared_boundaries`` says so; else curves must not cross where their data do not.
+    """
+
+    shape: Shape
+    settings: Settings
+    shared_boundaries: bool = False
+
+    @classmethod
+    def of(cls, shape: Shape, settings: Settings, shared_boundaries: object) -> DrawingRequest:
+        """The request, checked; a tolerance in per cent is one of the whole shape's box."""
+        shared = checked_flag("shared_boundaries", shared_boundaries)
+        if shared and (settings.tolerance is None or settings.outliers):
             raise InvalidInputError("shared_boundaries need a tolerance, and exclude outliers")
-        fits = _with_shared(shape, tolerance, degree, fit)
-    else:
-        fits = [
-            _named(index, shape, contour, tolerance, fit) for index, contour in enumerate(shape)
-        ]
-        if n_control_points is None:
-            fits = uncrossed(shape.contours, fits, closer)
-    return Drawing(fits, shape.parents, shape.frame, shape.unit)
+        if isinstance(settings.tolerance, str):
+            everything = Contour.silently(np.concatenate([c.points for c in shape]), closed=False)
+            settings = replace(settings, tolerance=tolerance_length(settings.tolerance, everything))
+        return cls(shape, settings, shared)
+
+    def of_contour(self, index: int) -> Request:
+        """The request for one contour; an error tells which one it is."""
+        contour, settings = self.shape.contours[index], self.settings
+        if settings.symmetric and not contour.closed:
+            settings = replace(settings, symmetric=False)
+        try:
+            return Request.of(contour, None, settings)
+        except InvalidInputError as error:
+            if len(self.shape) == 1:
+                raise
+            raise type(error)(f"contour {index} of {len(self.shape)}: {error}") from error
 
 
-class _FitContour(Protocol):
-    """fit_curve with the options of the caller."""
+def _solved(request: DrawingRequest, callback: Callback | None) -> list[Fit]:
+    """The fit of each contour."""
 
-    def __call__(self, contour: Contour, within: float | None, ends: Ends = ...) -> Fit: ...
+    def monitor() -> Monitor:
+        return Monitor(callback, request.settings.time_limit)
+
+    def ask(sub_request: Request) -> Fit:
+        own = monitor()
+        return finished(search(Problem(sub_request), own), own)
+
+    if request.shared_boundaries:
+        return _with_shared(request, monitor)
+    requests = [request.of_contour(index) for index in range(len(request.shape))]
+    fits = [solve(one, monitor()) for one in requests]
+    if request.settings.n_control_points is not None:
+        return fits
+    return uncrossed(request.shape.contours, fits, requests[0], ask)
 
 
-def _named(
-    index: int, shape: Shape, contour: Contour, within: float | None, fit: _FitContour
-) -> Fit:
-    """The fit of a contour; an error tells which one it is."""
-    try:
-        return fit(contour, within)
-    except InvalidInputError as error:
-        if len(shape) == 1:
-            raise
-        raise type(error)(f"contour {index} of {len(shape)}: {error}") from error
-
-
-def _with_shared(shape: Shape, tolerance: float, degree: int, fit: _FitContour) -> list[Fit]:
+def _with_shared(request: DrawingRequest, monitor: Callable[[], Monitor]) -> list[Fit]:
     """Fits of all contours, boundaries that they share fitted once."""
+    shape, settings = request.shape, request.settings
+    tolerance = tolerance_length(settings.tolerance or 0.0, shape.contours[0])
     snap = SNAP_PART * tolerance
     arcs = shared_arcs(shape.contours, snap)
+    of_arcs = replace(settings, tolerance=tolerance - snap, ends="fixed", symmetric=False)
     curves = [
-        fit(Contour.silently(points, closed), tolerance - snap, "fixed")
+        solve(Request.of(Contour.silently(points, closed), None, of_arcs), monitor())
         for points, closed in zip(arcs.points, arcs.closed, strict=True)
     ]
     fits = []
     for index, (contour, uses) in enumerate(zip(shape, arcs.uses, strict=True)):
         if not uses:
-            fits.append(_named(index, shape, contour, tolerance, fit))
+            fits.append(solve(request.of_contour(index), monitor()))
             continue
         first = curves[uses[0].arc]
         sections: tuple[Piece, ...] = ()
@@ -169,7 +184,7 @@ def _with_shared(shape: Shape, tolerance: float, degree: int, fit: _FitContour) 
             for use in uses:
                 pieces = curves[use.arc].pieces
                 sections += backwards(pieces) if use.backwards else pieces
-            spline = joined(sections, degree)
+            spline = joined(sections, settings.degree)
         fits.append(
             verified_fit(
                 contour, spline, tolerance=tolerance, method=first.method, sections=sections

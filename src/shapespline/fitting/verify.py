@@ -1,18 +1,137 @@
-"""From a curve to a Fit: both distances measured, and a status that is a true sentence."""
+"""Verification: the one place where a candidate becomes a Fit, with a status that is true.
+
+Both distances are measured with certified bounds (interval Hausdorff bound), unless a candidate
+brings those of its own curve; a tangent that was asked for is compared with the curve's.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from shapespline.geometry import two_sided_distance
-from shapespline.monitor import End, Monitor
-from shapespline.solvers import Result, Stop
+import numpy as np
+
+from shapespline.geometry import EXACT, joined, two_sided_distance
+from shapespline.monitor import End
+from shapespline.solvers import Stop
 from shapespline.values import Fit, Status
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from shapespline.engines.pieces import Constraints
+    from shapespline.engines.spline import Fairness
+    from shapespline.fitting.request import Request
     from shapespline.geometry import Distances
-    from shapespline.monitor import Iteration
+    from shapespline.monitor import Iteration, Monitor
+    from shapespline.solvers import Result
     from shapespline.values import BSplineCurve, Contour, Piece
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Candidate:
+    """A curve that a strategy proposes: pieces, or one spline.
+
+    Attributes
+    ----------
+    method : str
+        Who made it.
+    rank : int
+        Of curves that are as good the one with the smaller rank is taken: the simpler structure.
+    pieces : tuple of Piece
+        End to end; empty for one spline.
+    spline : BSplineCurve or None
+        None where the pieces tell it.
+    distances : Distances or None
+        Of this curve to the request's contour, certified, if the strategy knows them.
+    fairness : Fairness or None
+        Of one spline, if it was measured.
+    run, history
+        How the iterations ended and their records, where the curve is theirs.
+    """
+
+    method: str
+    rank: int = 0
+    pieces: tuple[Piece, ...] = ()
+    spline: BSplineCurve | None = None
+    distances: Distances | None = None
+    fairness: Fairness | None = None
+    run: Result | None = None
+    history: tuple[Iteration, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Verified:
+    """A candidate as a Fit whose figures were measured, and what it misses beside distances.
+
+    ``tangent_error`` is the larger angle between a tangent that was asked for and the curve's,
+    radians.
+    """
+
+    candidate: Candidate = field(repr=False)
+    fit: Fit
+    tangent_error: float = 0.0
+
+    @property
+    def kept(self) -> bool:
+        """Whether both distances keep the tolerance."""
+        return self.fit.kept
+
+    @property
+    def fair(self) -> bool:
+        """Whether the curve is fair as far as that was measured."""
+        return self.candidate.fairness is None or self.candidate.fairness.kept
+
+
+def verify(candidate: Candidate, request: Request) -> Verified:
+    """The candidate, measured against what was asked for.
+
+    Examples
+    --------
+    >>> from shapespline.fitting import Request, Settings
+    >>> from shapespline.values import BSplineCurve
+    >>> line = BSplineCurve([0, 0, 1, 1], [(0, 0), (2, 0)], degree=1)
+    >>> request = Request.of([(0, 0), (2, 0)], False, Settings(tolerance=0.5))
+    >>> verify(Candidate(method="by hand", spline=line), request).fit.status.value.split(":")[0]
+    'tolerance 0.5 kept'
+    """
+    spline = candidate.spline
+    if spline is None:
+        spline = joined(candidate.pieces, request.style.degree)
+    found = candidate.distances
+    found = two_sided_distance(spline, request.contour) if found is None else found
+    fit = verified_fit(
+        request.contour,
+        spline,
+        tolerance=request.tolerance,
+        method=candidate.method,
+        run=candidate.run,
+        history=candidate.history,
+        sections=candidate.pieces,
+        distances=found,
+    )
+    error = _tangent_error(fit.pieces, request.constraints)
+    if error:
+        turn = np.degrees(error)
+        fit = replace(
+            fit,
+            status=Status.EXCEEDED.saying(
+                f"an end tangent is missed by {turn:.3g} degrees: {fit.status.value}; take a larger"
+                " tolerance, or a tangent nearer to the data"
+            ),
+        )
+    return Verified(candidate, fit, error)
+
+
+def _tangent_error(pieces: Sequence[Piece], constraints: Constraints) -> float:
+    """The larger angle between a tangent that is kept and the curve's, radians; 0 for rounding."""
+    errors = [0.0]
+    first, last = pieces[0].control_points[:2], pieces[-1].control_points[-2:]
+    for wanted, (a, b) in zip(constraints.tangents, (first, last), strict=True):
+        if wanted is not None:
+            (ux, uy), (vx, vy) = wanted, b - a
+            errors.append(abs(float(np.arctan2(ux * vy - uy * vx, ux * vx + uy * vy))))
+    return max(errors) if max(errors) > EXACT else 0.0
 
 
 def verified_fit(
@@ -41,21 +160,16 @@ def verified_fit(
         Records of the iterations; pieces of the curve.
     distances : Distances, optional
         Of this curve to this contour, if they are known.
-
-    Examples
-    --------
-    >>> from shapespline import BSplineCurve, Contour
-    >>> line = BSplineCurve([0, 0, 1, 1], [(0, 0), (2, 0)], degree=1)
-    >>> fit = verified_fit(Contour([(0, 0), (2, 0)]), line, tolerance=0.5, method="by hand")
-    >>> fit.status.value.split(":")[0]
-    'tolerance 0.5 kept'
     """
     found = two_sided_distance(spline, contour) if distances is None else distances
     bound = found.hausdorff_distance
+    parameters = found.parameters
+    if contour.n_given != len(contour):
+        parameters = parameters[contour.source]
     return Fit(
         spline=spline,
         contour=contour,
-        parameters=found.parameters[contour.source],
+        parameters=parameters,
         max_distance=found.max_distance,
         rms_distance=found.rms_distance,
         hausdorff_distance=bound,
@@ -104,14 +218,28 @@ def status_of(found: Distances, tolerance: float | None, run: Result | None = No
     )
 
 
-def final_status(found: Status, monitor: Monitor) -> Status:
+def final_status(fit: Fit, monitor: Monitor) -> Status:
     """The status of a fit that a monitor may have ended: how, and what was found."""
-    if monitor.ended is None:
+    found = fit.status
+    if monitor.ended is None or (monitor.ended is End.CANCELLED and found == Status.CANCELLED):
         return found
     if monitor.ended is End.CANCELLED:
         return Status.CANCELLED.saying(
             f"cancelled by the callback after {monitor.seconds:.3g} s: {found.value}"
         )
+    figures = found.value
+    if found == Status.CANCELLED:  # so the solver was told, whose sentence would be a wrong one
+        figures = f"data to curve {fit.max_distance:.6g}, both ways {fit.hausdorff_distance:.6g}"
     return Status.BUDGET.saying(
-        f"the time limit of {monitor.time_limit:.6g} s ran out, give more to go on: {found.value}"
+        f"the time limit of {monitor.time_limit:.6g} s ran out, give more to go on: {figures}"
+    )
+
+
+def finished(verified: Verified, monitor: Monitor) -> Fit:
+    """The fit of what was verified, saying whether the monitor ended it."""
+    fit = verified.fit
+    return replace(
+        fit,
+        status=final_status(fit, monitor),
+        history=fit.history or tuple(monitor.history),
     )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from shapespline.errors import FormatError, SkippedContentWarning
+from shapespline.errors import FormatError, SkippedContentWarning, caller_level
 from shapespline.formats.chains import chained
 from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import bezier, size_of
@@ -97,7 +97,7 @@ def read(path: Path) -> Outlines:
     if np.ptp(heights or [0.0]) > FLAT * size:
         remarks.append("the drawing is not flat, and was taken as seen from above")
     for remark in remarks:
-        warnings.warn(f"{path.name}: {remark}", SkippedContentWarning, stacklevel=2)
+        warnings.warn(f"{path.name}: {remark}", SkippedContentWarning, stacklevel=caller_level())
     return Outlines(curves, None, UNITS.get(document.header.get("$INSUNITS", 0)))
 
 

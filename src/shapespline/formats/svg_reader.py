@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from shapespline.errors import FormatError, SkippedContentWarning
+from shapespline.errors import FormatError, SkippedContentWarning, caller_level
 from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import bezier, closed_up
 from shapespline.formats.svg_tree import prepared
@@ -66,7 +66,7 @@ def read(path: Path) -> Outlines:
             f"{path.name}: no outlines and left out: {', '.join(page.skipped)}; convert text to"
             " paths and apply clips in the drawing program",
             SkippedContentWarning,
-            stacklevel=2,
+            stacklevel=caller_level(),
         )
     curves = [pieces for pieces in _sub_paths(page.root) if pieces]
     if not curves:

@@ -25,13 +25,13 @@ FEW_VERTICES, MOST_VERTICES = 20_000, 200_000
 class ProxyPolyline(NamedTuple):
     """Vertices that stand for all points.
 
-    ``indices`` (k,) tell where among the points they belong; ``off`` is a bound of the distances
-    between their polyline and that of the points, both ways.
+    ``indices`` (k,) tell where among the points they belong; ``error_bound`` is a bound of the
+    distances between their polyline and that of the points, both ways.
     """
 
     points: FloatArray
     indices: IntArray
-    off: float
+    error_bound: float
 
     @classmethod
     def of(
@@ -46,7 +46,7 @@ class ProxyPolyline(NamedTuple):
             What the first of them told.
         closed : bool
         tolerance, longest : float
-            What ``off`` must stay below by far, and the longest chord of thinned vertices.
+            What ``error_bound`` must stay below by far, and the longest chord of thinned vertices.
 
         Raises
         ------
@@ -67,7 +67,7 @@ class ProxyPolyline(NamedTuple):
         scatter, width = min(scatters), best_width(scatters)
         if scatter <= MOST_SCATTER * tolerance:
             averaged = cls._averaged(passes, seen, closed, width)
-            if averaged.off <= MOST_SCATTER * tolerance:
+            if averaged.error_bound <= MOST_SCATTER * tolerance:
                 return averaged._kept_of(THINNINGS[0] * tolerance, longest, closed)
         for part in THINNINGS:
             tried = trial(part)
@@ -85,7 +85,7 @@ class ProxyPolyline(NamedTuple):
         begins = passes.stream.begins
         indices = [begin + part.indices for begin, part in zip(begins, kept, strict=False)]
         points = np.concatenate([part.points for part in kept])
-        return cls(points, np.concatenate(indices), kept[0].off)
+        return cls(points, np.concatenate(indices), kept[0].error_bound)
 
     @classmethod
     def _averaged(cls, passes: Passes, seen: Seen, closed: bool, width: int) -> ProxyPolyline:
@@ -109,7 +109,7 @@ class ProxyPolyline(NamedTuple):
     def _kept_of(self, distance: float, longest: float, closed: bool) -> ProxyPolyline:
         """Some of the vertices, a distance from the others."""
         kept = _thin(self.points, self.points[0] if closed else None, distance, longest)
-        return ProxyPolyline(kept.points, self.indices[kept.indices], self.off + distance)
+        return ProxyPolyline(kept.points, self.indices[kept.indices], self.error_bound + distance)
 
 
 def _tried(stream: PointStream) -> list[int]:

@@ -14,7 +14,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.errors import DegenerateContourError, DroppedPointsWarning, InvalidInputError
+from shapespline.errors import (
+    DegenerateContourError,
+    DroppedPointsWarning,
+    InvalidInputError,
+    caller_level,
+)
 from shapespline.validation import float_array, is_number
 
 if TYPE_CHECKING:
@@ -162,7 +167,7 @@ class Contour:
             warnings.warn(
                 f"dropped {n_dropped} of {self.n_given} points: equal to the point before them",
                 DroppedPointsWarning,
-                stacklevel=2,
+                stacklevel=caller_level(),
             )
 
     @classmethod

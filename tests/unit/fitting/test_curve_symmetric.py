@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.support.shapes import flower, moved, wave
 
-from shapespline import Contour, InvalidInputError, fit_curve
+from shapespline import Contour, InvalidInputError, Shape, fit_curve, fit_shape
 from shapespline.analysis.mirror import find_mirror
 from shapespline.analysis.normalization import THINNING
 
@@ -56,8 +56,12 @@ def test_what_is_not_symmetric_has_no_axis():
     assert asked.n_stored_points == plain.n_stored_points
 
 
-def test_open_outlines_are_fitted_as_ever():
-    plain, asked = (fit_curve(wave(), tolerance=0.02, symmetric=on) for on in (False, True))
+def test_open_outlines_are_refused_alone_and_fitted_as_ever_among_others():
+    with pytest.raises(InvalidInputError, match="symmetric acts on closed outlines only"):
+        fit_curve(wave(), tolerance=0.02, symmetric=True)
+    plain, asked = (
+        fit_shape(Shape([wave()]), tolerance=0.02, symmetric=on).fits[0] for on in (False, True)
+    )
     assert (plain.spline.control_points == asked.spline.control_points).all()
 
 

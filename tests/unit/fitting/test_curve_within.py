@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
+from tests.support.engines import fit_pieces
 from tests.support.promise import checked
 from tests.support.shapes import flower
 
 from shapespline import Contour, InvalidInputError, fit_curve
-from shapespline.engines.pieces.engine import fit_pieces
-from shapespline.fitting.within import tolerance_length
+from shapespline.fitting.request import tolerance_length
 
 
 def test_joints_turn_at_corners_only(outline):
@@ -97,7 +97,7 @@ def test_a_tolerance_as_a_part_of_the_diagonal(outline):
         ({"tolerance": 0.1, "form": "arcs"}, "form must be one of pieces, spline, got 'arcs'"),
         ({"tolerance": 0.1, "effort": "max"}, "effort must be one of fast, balanced, smallest"),
         ({"tolerance": 0.1, "corners": "sharp"}, "corners must be 'auto', 'free', None or indices"),
-        ({"tolerance": 0.1, "corners": [3, 160]}, "corners must be .* indices below 160"),
+        ({"tolerance": 0.1, "corners": [3, 160]}, "corners must be indices below 160"),
         ({"tolerance": 0.1, "corners": [0.5]}, "corners must be"),
         ({"tolerance": 0.1, "corners": [1], "form": "spline"}, "corners must be 'auto', 'free'"),
         ({"tolerance": 0.1, "weights": np.ones(159)}, r"weights must have shape \(160,\)"),

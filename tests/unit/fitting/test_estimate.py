@@ -9,7 +9,8 @@ from tests.support.shapes import flower, shaken
 
 from shapespline import Contour, fit_curve
 from shapespline.analysis.resolution import BOX_PARTS, resolution
-from shapespline.fitting.estimate import smooth_start
+from shapespline.engines.least_squares import smooth_start
+from shapespline.monitor import Monitor
 
 SEEDS = range(10)
 
@@ -83,8 +84,8 @@ def test_straight_runs_of_a_clean_outline_are_lines():
 
 def test_noise_lowers_the_size(outline):
     loop = outline("loop500_open")
-    few = smooth_start(shaken(loop, 1.0, 0), 3).spline.n_control_points
-    more = smooth_start(shaken(loop, 0.05, 0), 3).spline.n_control_points
+    few = smooth_start(shaken(loop, 1.0, 0), 3, monitor=Monitor()).spline.n_control_points
+    more = smooth_start(shaken(loop, 0.05, 0), 3, monitor=Monitor()).spline.n_control_points
     assert few < more
 
 

@@ -82,7 +82,7 @@ def test_cancelling_a_pool_leaves_it_usable():
 
 
 def test_a_wrong_option_is_refused_before_any_work():
-    with pytest.raises(ss.InvalidInputError, match="tolerence is not an option of fit_many"):
+    with pytest.raises(ss.InvalidInputError, match="tolerence is not an option of a fit"):
         ss.fit_many(outlines(1), tolerence=1)
 
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from benchmarks.outside_metric import two_sided
 from numpy.testing import assert_array_equal
+from tests.support.engines import fit_pieces
 from tests.support.maps import cells, wavy
 from tests.support.places import IMAGES
 from tests.support.shapes import on_circle
 
 import shapespline as ss
 from shapespline.analysis.shared_boundaries import shared_arcs
-from shapespline.engines.pieces.engine import fit_pieces
 from shapespline.geometry.flattening import sampled
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
 

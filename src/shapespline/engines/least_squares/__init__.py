@@ -1,17 +1,22 @@
 """The least-squares engine: control points and location parameters together."""
 
 from shapespline.engines.least_squares.problem import CurveProblem
-from shapespline.engines.least_squares.smoothing import PENALTY, Smoothed, smoothed, straight_line
+from shapespline.engines.least_squares.smoothing import (
+    FINAL_LIMITS,
+    PENALTY,
+    Smoothed,
+    smooth_start,
+    smoothed,
+    straight_line,
+)
 from shapespline.engines.least_squares.solve import (
     DEFAULT_LIMITS,
     METHODS,
     Minimized,
     Start,
-    as_iteration,
     given_weights,
     minimized,
     named_solver,
-    parameters_in_order,
     summed_weights,
 )
 from shapespline.engines.least_squares.starts.baselines import dominant_start, uniform_start
@@ -24,6 +29,7 @@ from shapespline.engines.least_squares.streamed import MOST_PASSES, least_square
 
 __all__ = [
     "DEFAULT_LIMITS",
+    "FINAL_LIMITS",
     "METHODS",
     "MOST_PASSES",
     "PENALTY",
@@ -33,14 +39,13 @@ __all__ = [
     "Minimized",
     "Smoothed",
     "Start",
-    "as_iteration",
     "balanced_start",
     "dominant_start",
     "given_weights",
     "least_squares",
     "minimized",
     "named_solver",
-    "parameters_in_order",
+    "smooth_start",
     "smoothed",
     "straight_line",
     "summed_weights",

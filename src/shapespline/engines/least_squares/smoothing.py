@@ -6,11 +6,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.analysis import NOISE_BAND, resolution
 from shapespline.engines.least_squares.starts.equidistribution import Balanced, balanced_start
+from shapespline.solvers import Limits
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
+    from shapespline.monitor import Monitor
     from shapespline.typing import FloatArray
+
 # Price of a control point in units of the variance: more than the 2 of AIC, for a free knot and a
 # free tangential place come with it. Measured on a loop (benchmarks.estimation): 2.5 / 3 / 3.5 / 5
 # leave an rms distance to the truth of 0.061 / 0.052 / 0.051 / 0.055 of a box diagonal of 100.
@@ -24,6 +28,8 @@ PATIENCE, AT_LEAST = 3, 32
 FINEST = 0.06
 # Points that the search for a size looks at: more tell it nothing new.
 SEARCH_POINTS = 10_000
+# The start of a least-squares fit has been balanced already: what is left falls by 1e-4 and less.
+FINAL_LIMITS = Limits(max_iterations=300, max_evaluations=1000, relative_decrease=1e-4)
 
 
 class Smoothed(NamedTuple):
@@ -48,17 +54,23 @@ class Smoothed(NamedTuple):
 
 
 def smoothed(
-    contour: Contour, degree: int, noise: float, weights: FloatArray | None = None
+    contour: Contour,
+    degree: int,
+    noise: float,
+    weights: FloatArray | None = None,
+    *,
+    monitor: Monitor,
 ) -> Smoothed:
     """The least-squares spline, or line, whose size makes the cost least.
 
     Minimises ``sum w |C(t) - Q|^2 / noise^2 + 3.5 m`` over the number m of control points (Mallows'
-    C_p with a dearer parameter), coarsely first, then finely.
+    C_p with a dearer parameter), coarsely first, then finely. The monitor may end the search; the
+    best size so far is taken.
     """
     if len(contour) > SEARCH_POINTS and weights is None:
         stride = -(-len(contour) // SEARCH_POINTS)
         thinned = Contour.silently(contour.points[::stride], contour.closed)
-        size = smoothed(thinned, degree, noise).n_control_points
+        size = smoothed(thinned, degree, noise, monitor=monitor).n_control_points
         if size <= degree:
             return straight_line(contour, noise)
         return _of_size(size, contour, degree, noise)
@@ -71,11 +83,15 @@ def smoothed(
         found = _of_size(size, contour, degree, noise, weights)
         best, misses = (found, 0) if found.cost < best.cost else (best, misses + 1)
         size = max(size + 1, round(SIZE_FACTOR * size))
+        if monitor.ends(size):
+            return best
     middle = best.n_control_points
     for size in range(round(middle / SIZE_FACTOR) + 1, round(middle * SIZE_FACTOR)):
         if degree < size <= most and (size - middle) % max(1, round(FINEST * middle)) == 0:
             found = _of_size(size, contour, degree, noise, weights)
             best = found if found.cost < best.cost else best
+            if monitor.ends(size):
+                break
     return best
 
 
@@ -102,3 +118,15 @@ def straight_line(contour: Contour, noise: float) -> Smoothed:
     along = vectors[:, 1] * np.copysign(1.0, (off[-1] - off[0]) @ vectors[:, 1])
     points = middle + np.outer(np.sort(off @ along), along)
     return Smoothed(points, max(float(values[0]), 0.0) / noise**2 + 2 * PENALTY, 2, None)
+
+
+def smooth_start(
+    contour: Contour, degree: int, weights: FloatArray | None = None, *, monitor: Monitor
+) -> Balanced:
+    """One spline over the whole contour, of the size that the criterion chooses."""
+    shown = resolution(contour)
+    noise = max(shown.noise, shown.band / NOISE_BAND)
+    found = smoothed(contour, degree, noise, weights, monitor=monitor)
+    if found.start is not None:
+        return found.start
+    return balanced_start(contour, degree + 1, degree, weights, rounds=0, ends="fitted")

@@ -1,31 +1,40 @@
 """The pieces engine: lines, Beziers and small splines between nodes."""
 
-from shapespline.engines.pieces.constraints import Constraints
+from shapespline.engines.pieces.constraints import Constraints, pinned_exactly
 from shapespline.engines.pieces.engine import (
-    ROUGH_PART,
-    SECTION_DEGREE,
-    SHARP_TURN,
-    PiecesResult,
-    fit_pieces,
-    verified_pieces,
+    PIECE_DEGREE,
+    TOLERANCE_FACTORS,
+    in_data,
+    search_pieces,
 )
-from shapespline.engines.pieces.fallbacks import through_all
-from shapespline.engines.pieces.mirrored import fit_mirrored
+from shapespline.engines.pieces.fallbacks import (
+    chords_found,
+    drawn_straight,
+    drawn_with_lines,
+    in_facets,
+    search_lines,
+    through_all,
+)
+from shapespline.engines.pieces.mirrored import MirroredHalf
 from shapespline.engines.pieces.observed import fit_observed
 from shapespline.engines.pieces.problem import PiecesProblem
-from shapespline.engines.pieces.search import Effort
+from shapespline.engines.pieces.search import n_points_of
 
 __all__ = [
-    "ROUGH_PART",
-    "SECTION_DEGREE",
-    "SHARP_TURN",
+    "PIECE_DEGREE",
+    "TOLERANCE_FACTORS",
     "Constraints",
-    "Effort",
+    "MirroredHalf",
     "PiecesProblem",
-    "PiecesResult",
-    "fit_mirrored",
+    "chords_found",
+    "drawn_straight",
+    "drawn_with_lines",
     "fit_observed",
-    "fit_pieces",
+    "in_data",
+    "in_facets",
+    "n_points_of",
+    "pinned_exactly",
+    "search_lines",
+    "search_pieces",
     "through_all",
-    "verified_pieces",
 ]

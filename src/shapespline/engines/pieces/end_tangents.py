@@ -26,10 +26,10 @@ NEARLY = np.radians(3.0)
 
 def stubbed(outline: PiecesProblem) -> PiecesProblem:
     """The outline with a straight stub at each end whose tangent is held."""
-    begin, end = outline.held.tangents
+    begin, end = outline.constraints.tangents
     if begin is None and end is None:
         return outline
-    contour = outline.frame.contour
+    contour = outline.normalized.contour
     along = STUB_TOLERANCES * outline.tolerance * np.arange(1, STUB_POINTS + 1) / STUB_POINTS
     parts = [contour.points]
     if begin is not None:
@@ -42,21 +42,21 @@ def stubbed(outline: PiecesProblem) -> PiecesProblem:
     last = np.array([] if end is None else [shift + n - 1], dtype=np.int64)
     at = np.concatenate([first, last])
     gentle = np.ones(len(points), dtype=np.int64)
-    gentle[shift : shift + n] = outline.gentle
-    through = np.union1d(outline.held.through + shift, at)
+    gentle[shift : shift + n] = outline.low_turn
+    through = np.union1d(outline.constraints.through + shift, at)
     held = Constraints(True, through, after_stub=first, before_stub=last)
     return outline._replace(
-        frame=outline.frame._replace(contour=Contour.trusted(points, closed=False)),
+        normalized=outline.normalized._replace(contour=Contour.trusted(points, closed=False)),
         corners=np.setdiff1d(outline.corners + shift, at),
-        gentle=gentle,
-        held=held,
+        low_turn=gentle,
+        constraints=held,
     )
 
 
 def without_stubs(pieces: tuple[Piece, ...], outline: PiecesProblem) -> tuple[Piece, ...]:
     """The pieces between the first and the last point of an outline that was stubbed."""
-    begin, end = outline.held.tangents
-    points = outline.frame.contour.points
+    begin, end = outline.constraints.tangents
+    points = outline.normalized.contour.points
     if pieces and begin is not None:
         starts = np.array([piece.control_points[0] for piece in pieces])
         pieces = pieces[int(((starts - points[0]) ** 2).sum(axis=1).argmin()) :]

@@ -3,46 +3,99 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.analysis import LEAST_TURN
+from shapespline.analysis import FEWEST_STRAIGHT, LEAST_TURN, STRAIGHT_PART
+from shapespline.engines.pieces.engine import TOLERANCE_FACTORS
+from shapespline.engines.pieces.search import BUDGETS, PiecesSolver
 from shapespline.geometry import turn_between
+from shapespline.monitor import Monitor
 from shapespline.values import Piece
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from shapespline.engines.pieces.problem import PiecesProblem
     from shapespline.values import Contour
+
 # A polyline whose joints turn less than corners for more than this part follows a curve.
-GENTLE_PART = 0.5
+LOW_TURN_PART = 0.5
+# Of the joints between lines that stand for a curve so many turn less than corners.
+FACETS_PART = 0.25
 
 
-def _drawn_with_lines(lines: Sequence[Piece], closed: bool) -> bool:
-    """Whether lines meet in corners everywhere, not in the facets of a curve."""
-    turns = [abs(turn_between(before, after)) for before, after in pairwise(lines)]
-    if closed:
-        turns.append(abs(turn_between(lines[-1], lines[0])))
-    return min(turns, default=np.pi) >= LEAST_TURN
+class Chords(NamedTuple):
+    """A polyline through some of the data, found in one pass.
 
-
-def _chords_found(outline: PiecesProblem) -> tuple[int, bool]:
-    """How many points a polyline through some of the data stores; whether it follows a curve.
-
-    A first guess: most joints of a polyline along a curve turn less than corners.
+    ``n_points`` is what it stores, ``follow_curve`` whether most of its joints turn less than
+    corners.
     """
-    contour = outline.frame.contour
-    chosen = _kernels.thinned(contour.polyline, outline.tolerance, np.inf, None)
+
+    n_points: int
+    follow_curve: bool
+
+
+def chords_found(problem: PiecesProblem) -> Chords:
+    """A first guess of what lines would take (cone intersection, Williams 1978)."""
+    contour = problem.normalized.contour
+    chosen = _kernels.thinned(contour.polyline, problem.tolerance, np.inf, None)
     x, y = np.diff(contour.polyline[chosen], axis=0).T
     turns = np.arctan2(x[:-1] * y[1:] - y[:-1] * x[1:], x[:-1] * x[1:] + y[:-1] * y[1:])
-    gentle = np.count_nonzero(np.abs(turns) < LEAST_TURN)
-    return len(chosen) - contour.closed, bool(gentle > GENTLE_PART * len(turns))
+    n_low = np.count_nonzero(np.abs(turns) < LEAST_TURN)
+    return Chords(len(chosen) - contour.closed, bool(n_low > LOW_TURN_PART * len(turns)))
+
+
+def search_lines(problem: PiecesProblem) -> tuple[Piece, ...]:
+    """Lines alone, every point a candidate node, in the unit and order of the problem."""
+    constraints = problem.constraints._replace(tangents=(None, None))
+    straight = problem._replace(constraints=constraints)
+    return PiecesSolver(straight, 1, False, False, Monitor()).run(
+        TOLERANCE_FACTORS[0] * problem.tolerance, BUDGETS["fast"][0]._replace(stride=1)
+    )
 
 
 def through_all(contour: Contour) -> tuple[Piece, ...]:
     """A line from each point to the next; it crosses itself only where the data do."""
     knots, polyline = np.array([0.0, 0.0, 1.0, 1.0]), contour.polyline
     return tuple(Piece("line", 1, knots, polyline[i : i + 2]) for i in range(len(polyline) - 1))
+
+
+def turns_of(pieces: Sequence[Piece], closed: bool) -> Iterator[float]:
+    """Signed turns between neighbours, radians; of a closed curve that at the seam comes first."""
+    if closed and pieces:
+        yield turn_between(pieces[-1], pieces[0])
+    for before, after in pairwise(pieces):
+        yield turn_between(before, after)
+
+
+def drawn_with_lines(lines: Sequence[Piece], closed: bool) -> bool:
+    """Whether lines meet in corners everywhere, not in the facets of a curve."""
+    return min(map(abs, turns_of(lines, closed)), default=np.pi) >= LEAST_TURN
+
+
+def in_facets(pieces: Sequence[Piece], closed: bool) -> bool:
+    """Whether lines stand for a curve: many of the joints between them turn less than corners."""
+    if any(piece.degree > 1 for piece in pieces):
+        return False
+    turns = np.abs(list(turns_of(pieces, closed)))
+    n_low = np.count_nonzero(turns < LEAST_TURN)
+    return bool(len(turns) and n_low >= FACETS_PART * len(turns))
+
+
+def drawn_straight(piece: Piece, contour: Contour, tolerance: float) -> bool:
+    """Whether the data along a line are straight themselves, by far more than the tolerance."""
+    if piece.degree > 1:
+        return False
+    begin, side = piece.control_points[0], np.diff(piece.control_points, axis=0)[0]
+    length = float(np.hypot(*side))
+    along = (contour.points - begin) @ side / length**2
+    across = (contour.points - begin) @ np.array([-side[1], side[0]]) / length
+    beside = (np.abs(along - 0.5) < 0.4) & (np.abs(across) <= tolerance)
+    if np.count_nonzero(beside) < FEWEST_STRAIGHT:
+        return False
+    # They may lie on another line, within the tolerance.
+    tilt = np.polynomial.Polynomial.fit(along[beside], across[beside], 1)
+    return float(np.ptp(across[beside] - tilt(along[beside]))) <= STRAIGHT_PART * tolerance

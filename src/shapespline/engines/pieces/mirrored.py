@@ -1,28 +1,19 @@
-"""Pieces of a mirror-symmetric outline: one half is fitted, the other one reflected."""
+"""A mirror-symmetric outline in pieces: one half is searched, the other one reflected."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.analysis import Mirror, find_mirror
 from shapespline.engines.pieces.constraints import Constraints
-from shapespline.engines.pieces.engine import PiecesResult, fit_pieces, verified_pieces
 from shapespline.geometry import backwards, turn_between
 from shapespline.values import Contour, Piece
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
     from shapespline.engines.pieces.problem import PiecesProblem
-    from shapespline.engines.pieces.search import Effort
-    from shapespline.monitor import Monitor
     from shapespline.typing import FloatArray, IntArray
-
-    Sampler = Callable[[FloatArray], NDArray[np.complex128]]
-from shapespline.analysis import Mirror, find_mirror
 
 # The outline and its mirror image may differ by this part of the tolerance; the fit has the rest.
 LARGEST_PART = 0.2
@@ -34,52 +25,43 @@ CLOSE = 1e-6
 STRAIGHT = 1e-6
 
 
-def fit_mirrored(
-    contour: Contour,
-    tolerance: float,
-    *,
-    degree: int,
-    effort: Effort,
-    monitor: Monitor,
-    outline: PiecesProblem,
-) -> PiecesResult | None:
-    """Pieces of an outline that has a mirror symmetry, symmetric; None if it has none.
+class MirroredHalf(NamedTuple):
+    """One half of a symmetric outline, and what its curve must keep to meet its mirror image.
 
-    Nor if the half cannot be fitted within what the asymmetry leaves of the tolerance, or meets the
-    axis at an angle that is no corner of the outline.
+    ``tolerance`` is what the asymmetry leaves; ``corners`` are indices of ``contour``. All is in
+    the unit of the problem.
     """
-    if not contour.closed or monitor.ended:
-        return None
-    work = outline.thinned()
-    mirror = find_mirror(work.frame.contour)
-    if mirror is None or mirror.error > LARGEST_PART * work.tolerance:
-        return None
-    half, corners, held = _half(work, mirror)
-    found = fit_pieces(
-        half,
-        work.tolerance - mirror.error,
-        corners=corners,
-        degree=degree,
-        effort=effort,
-        held=held,
-        monitor=monitor,
-    )
-    if not found.kept or found.tangent_error:
-        return None
-    other = tuple(
-        piece._replace(control_points=mirror.reflected(piece.control_points))
-        for piece in backwards(found.pieces)
-    )
-    other[0].control_points[0] = found.pieces[-1].control_points[-1]
-    other[-1].control_points[-1] = found.pieces[0].control_points[0]
-    pieces = _without_split_pieces([*found.pieces, *other])
-    result = verified_pieces(outline.frame, pieces, contour, tolerance, degree, Constraints())
-    return result if result.kept else None
+
+    contour: Contour
+    tolerance: float
+    corners: IntArray
+    constraints: Constraints
+    mirror: Mirror
+
+    @classmethod
+    def of(cls, problem: PiecesProblem) -> MirroredHalf | None:
+        """The half of a problem whose outline is closed and nearly symmetric, else None."""
+        if not problem.normalized.contour.closed:
+            return None
+        mirror = find_mirror(problem.normalized.contour)
+        if mirror is None or mirror.error > LARGEST_PART * problem.tolerance:
+            return None
+        return cls(*_half(problem, mirror), mirror)
+
+    def whole(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
+        """Pieces of the half and their mirror image, end to end."""
+        other = tuple(
+            piece._replace(control_points=self.mirror.reflected(piece.control_points))
+            for piece in backwards(pieces)
+        )
+        other[0].control_points[0] = pieces[-1].control_points[-1]
+        other[-1].control_points[-1] = pieces[0].control_points[0]
+        return _without_split_pieces([*pieces, *other])
 
 
-def _half(work: PiecesProblem, mirror: Mirror) -> tuple[Contour, IntArray, Constraints]:
-    """The data from one crossing of the axis to the other, its corners, what it must keep."""
-    contour = work.frame.contour
+def _half(work: PiecesProblem, mirror: Mirror) -> tuple[Contour, float, IntArray, Constraints]:
+    """The data from one crossing of the axis to the other, what is left of the tolerance."""
+    contour = work.normalized.contour
     stations, least = contour.arc_length[:-1], CLOSE * contour.length
     begin, end = sorted(mirror.crossings)
     first, last = (mirror.projected(point) for point in contour.at(np.array([begin, end])))
@@ -101,6 +83,7 @@ def _half(work: PiecesProblem, mirror: Mirror) -> tuple[Contour, IntArray, Const
     ]
     return (
         Contour.silently(points, closed=False),
+        work.tolerance - mirror.error,
         marked[apart[0] & apart[1]],
         Constraints(True, tangents=tangents),
     )

@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.analysis import NormalizedContour
+from shapespline.engines.pieces.engine import PIECE_DEGREE
 from shapespline.engines.pieces.problem import PiecesProblem
-from shapespline.engines.pieces.search import SEARCHES, PiecesSolver
-from shapespline.monitor import Monitor
+from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, n_points_of
 
 if TYPE_CHECKING:
-    from shapespline.engines.pieces.search import Effort
-    from shapespline.typing import FloatArray, IntArray
+    from shapespline.monitor import Monitor
+    from shapespline.typing import Effort, FloatArray, IntArray
     from shapespline.values import Contour, Piece
-from shapespline.engines.pieces.engine import SECTION_DEGREE
 
 
 def fit_observed(
@@ -27,6 +26,7 @@ def fit_observed(
     corners: IntArray | None,
     degree: int = 3,
     effort: Effort = "balanced",
+    monitor: Monitor,
 ) -> tuple[Piece, ...]:
     """Pieces that follow a smoothed outline within a tolerance, then fitted to what was observed.
 
@@ -43,20 +43,22 @@ def fit_observed(
     corners : ndarray or None
         Indices of the corners that are kept; None lets the fit make and round them.
     degree, effort
-        See `fit_pieces`.
+        See `search_pieces`.
+    monitor : Monitor
+        May end the search; there may be no pieces then.
     """
     faithful = corners is not None
-    task = PiecesSolver(
+    solver = PiecesSolver(
         PiecesProblem(
             NormalizedContour.of_working(outline),
             tolerance,
             np.empty(0, dtype=np.int64) if corners is None else corners,
             np.zeros(len(outline), dtype=np.int64),
         ),
-        min(degree, SECTION_DEGREE),
+        min(degree, PIECE_DEGREE),
         faithful,
         faithful,
-        Monitor(),
+        monitor,
     )
-    runs = [task.run(tolerance, search, observed, noise) for search in SEARCHES[effort]]
-    return min(runs, key=lambda pieces: sum(len(p.control_points) - 1 for p in pieces))
+    runs = [solver.run(tolerance, budget, observed, noise) for budget in BUDGETS[effort]]
+    return min(filter(None, runs), key=n_points_of, default=())

@@ -1,8 +1,8 @@
-"""A contour made ready for a search within a tolerance: order and unit, corners, straight runs."""
+"""A contour made ready for a search within a tolerance: order and unit, corners, constraints."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,26 +11,24 @@ from shapespline.engines.pieces.constraints import Constraints
 from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
-    from shapespline.typing import ArrayLike, IntArray
+    from shapespline.typing import ArrayLike, CornerChoice, IntArray
     from shapespline.values import Contour
-
-CornerChoice = Literal["auto", "free"]
 
 
 class PiecesProblem(NamedTuple):
     """What a search within a tolerance knows about a contour before it begins.
 
-    ``frame`` holds the points in its order and unit, ``tolerance`` is in that unit too. ``corners``
-    are indices of its points, ``gentle`` (n,) is 1 where the outline hardly turns, ``held`` is in
-    its order and direction. ``dense`` are points as they came, in that unit, where the frame holds
-    thinned ones.
+    ``normalized`` holds the points in canonical order and unit, ``tolerance`` is in that unit, too.
+    ``corners`` are indices of its points, ``low_turn`` (n,) is 1 where the outline hardly turns,
+    ``constraints`` are in its order and direction. ``dense`` are points as they came, in that unit,
+    where the contour holds thinned ones.
     """
 
-    frame: NormalizedContour
+    normalized: NormalizedContour
     tolerance: float
     corners: IntArray
-    gentle: IntArray
-    held: Constraints = Constraints()
+    low_turn: IntArray
+    constraints: Constraints = Constraints()
     dense: Contour | None = None
 
     @classmethod
@@ -39,9 +37,9 @@ class PiecesProblem(NamedTuple):
         contour: Contour,
         tolerance: float,
         corners: CornerChoice | ArrayLike | None,
-        held: Constraints | None = None,
+        constraints: Constraints | None = None,
     ) -> PiecesProblem:
-        """The outline of a contour; corners as `fit_pieces` takes them.
+        """The problem of a contour; its corners are found here, or named by their indices.
 
         Examples
         --------
@@ -53,47 +51,57 @@ class PiecesProblem(NamedTuple):
         >>> len(outline.corners)
         4
         """
-        frame = NormalizedContour.of(contour)
-        aim, n = tolerance * frame.scale, len(contour)
-        gentle = np.ones(n, dtype=np.int64)
-        held = _in_frame(Constraints() if held is None else held, frame)
+        normalized = NormalizedContour.of(contour)
+        aim, n = tolerance * normalized.scale, len(contour)
+        low_turn = np.ones(n, dtype=np.int64)
+        constraints = _in_order(Constraints() if constraints is None else constraints, normalized)
         if corners is None:
-            return cls(frame, aim, np.empty(0, dtype=np.int64), gentle, held)
+            return cls(normalized, aim, np.empty(0, dtype=np.int64), low_turn, constraints)
         if isinstance(corners, str):
             if corners not in ("auto", "free"):
                 raise InvalidInputError(
                     f"corners must be 'auto', 'free', None or indices, got {corners!r}"
                 )
-            found = find_corners(frame.contour, aim)
-            gentle = (found.turns < GENTLE_TURN).astype(np.int64)
-            return cls(frame, aim, found.indices, gentle, held)
+            found = find_corners(normalized.contour, aim)
+            low_turn = (found.turns < GENTLE_TURN).astype(np.int64)
+            return cls(normalized, aim, found.indices, low_turn, constraints)
         given = np.asarray(corners)
         if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
             raise InvalidInputError(f"corners must be one list of whole numbers, got {corners!r}")
         if given.size and (given.min() < 0 or given.max() >= n):
             raise InvalidInputError(f"corners must be indices below {n}, got {given.tolist()}")
-        return cls(frame, aim, np.unique(frame.place[given.astype(np.int64)]), gentle, held)
+        return cls(
+            normalized,
+            aim,
+            np.unique(normalized.place[given.astype(np.int64)]),
+            low_turn,
+            constraints,
+        )
 
     def thinned(self) -> PiecesProblem:
         """The outline without the points that the search does not need, its tolerance less so."""
-        stay = np.union1d(self.corners, self.held.through)
-        frame = self.frame.thinned(self.tolerance, stay)
-        if frame is self.frame:
+        stay = np.union1d(self.corners, self.constraints.through)
+        normalized = self.normalized.thinned(self.tolerance, stay)
+        if normalized is self.normalized:
             return self
-        place = self.frame.place[frame.order]
+        place = self.normalized.place[normalized.order]
         return self._replace(
-            frame=frame,
-            tolerance=self.tolerance - frame.slack,
+            normalized=normalized,
+            tolerance=self.tolerance - normalized.slack,
             corners=np.flatnonzero(np.isin(place, self.corners)),
-            gentle=self.gentle[place],
-            held=self.held._replace(through=np.flatnonzero(np.isin(place, self.held.through))),
+            low_turn=self.low_turn[place],
+            constraints=self.constraints._replace(
+                through=np.flatnonzero(np.isin(place, self.constraints.through))
+            ),
         )
 
 
-def _in_frame(held: Constraints, frame: NormalizedContour) -> Constraints:
-    """What is held, in the order and direction of a frame."""
-    begin, end = held.tangents
-    if frame.reversed:
+def _in_order(constraints: Constraints, normalized: NormalizedContour) -> Constraints:
+    """Constraints in the order and direction of a normalised contour."""
+    begin, end = constraints.tangents
+    if normalized.reversed:
         begin, end = (None if t is None else -t for t in (end, begin))
-    through = np.unique(frame.place[held.through]) if len(held.through) else held.through
-    return held._replace(through=through, tangents=(begin, end))
+    through = constraints.through
+    if len(through):
+        through = np.unique(normalized.place[through])
+    return constraints._replace(through=through, tangents=(begin, end))

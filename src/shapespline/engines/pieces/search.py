@@ -1,9 +1,9 @@
-"""One run of the structured search: its arrays in, pieces with exact tangents out."""
+"""One run of the search for pieces: its arrays in, pieces with exact tangents out."""
 
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,9 +14,11 @@ from shapespline.engines.pieces.tangents import aligned
 from shapespline.values import Piece
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.engines.pieces.problem import PiecesProblem
     from shapespline.monitor import Monitor
-    from shapespline.typing import FloatArray
+    from shapespline.typing import Effort, FloatArray
 
 # Candidate nodes on a whole outline, whatever the stride.
 LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
@@ -31,8 +33,6 @@ LARGEST_MOVE = 0.002
 OBSERVED_MOVE = 0.1
 # What the kernel is told about the joint at a point, summed.
 CORNER, PINNED, AFTER_STUB, BEFORE_STUB = 1, 2, 4, 8
-
-Effort = Literal["fast", "balanced", "smallest"]
 
 
 class SearchBudget(NamedTuple):
@@ -54,7 +54,7 @@ class SearchBudget(NamedTuple):
 
 # The reduction is a greedy search, and where it starts is worth some percent: the best of several
 # runs on different candidates is taken.
-SEARCHES: dict[Effort, tuple[SearchBudget, ...]] = {
+BUDGETS: dict[Effort, tuple[SearchBudget, ...]] = {
     "fast": (SearchBudget(12, 0.8, 5, 1, thorough=False),),
     "balanced": (SearchBudget(12, 0.4, 1, 6, thorough=True),),
     "smallest": tuple(
@@ -72,7 +72,7 @@ class PiecesSolver(NamedTuple):
     tangent, where the outline is gentle at the price of some more points.
     """
 
-    outline: PiecesProblem
+    problem: PiecesProblem
     largest_degree: int
     keep_corners: bool
     smooth: bool
@@ -81,7 +81,7 @@ class PiecesSolver(NamedTuple):
     def run(
         self,
         tolerance: float,
-        search: SearchBudget,
+        budget: SearchBudget,
         observed: FloatArray | None = None,
         noise: float = 0.0,
     ) -> tuple[Piece, ...]:
@@ -89,33 +89,33 @@ class PiecesSolver(NamedTuple):
 
         No pieces if it was ended before there were any.
         """
-        outline = stubbed(self.outline)
-        contour = outline.frame.contour
+        outline = stubbed(self.problem)
+        contour = outline.normalized.contour
         n = len(contour)
         joints, forced = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
         forced[outline.corners] = 1
         if self.keep_corners:
             joints[outline.corners] += CORNER
-        joints[outline.held.through] += PINNED
-        joints[outline.held.after_stub] += AFTER_STUB
-        joints[outline.held.before_stub] += BEFORE_STUB
+        joints[outline.constraints.through] += PINNED
+        joints[outline.constraints.after_stub] += AFTER_STUB
+        joints[outline.constraints.before_stub] += BEFORE_STUB
         forced[joints > 0] = 1
         degrees, counts, knots, coordinates = _kernels.fit_sections(
             contour.points,
             contour.closed,
             joints,
             forced,
-            outline.gentle,
-            max(min(search.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
-            search.resolution * tolerance,
-            search.every,
+            outline.low_turn,
+            max(min(budget.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
+            budget.resolution * tolerance,
+            budget.every,
             tolerance,
             self.largest_degree,
             self.smooth,
-            outline.held.ends,
+            outline.constraints.ends,
             RELEASE * LEAST_TURN,
-            search.passes,
-            search.thorough,
+            budget.passes,
+            budget.thorough,
             self.monitor.ends,
             observed,
             noise,
@@ -124,7 +124,12 @@ class PiecesSolver(NamedTuple):
         if self.smooth and pieces:
             largest_move = LARGEST_MOVE * tolerance if observed is None else OBSERVED_MOVE * noise
             pieces = aligned(pieces, largest_move, closed=contour.closed)
-        return without_stubs(pieces, self.outline)
+        return without_stubs(pieces, self.problem)
+
+
+def n_points_of(pieces: Sequence[Piece]) -> int:
+    """Points that the pieces of a closed curve store; an open one has one more."""
+    return sum(len(piece.control_points) - 1 for piece in pieces)
 
 
 def _unpacked(

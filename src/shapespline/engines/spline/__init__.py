@@ -1,6 +1,6 @@
 """The spline engine: one B-spline by knot removal with free knots."""
 
-from shapespline.engines.spline.engine import fit_spline
-from shapespline.engines.spline.fairness import rule_report
+from shapespline.engines.spline.engine import SplineAttempt, attempts
+from shapespline.engines.spline.fairness import Fairness, fairness_of
 
-__all__ = ["fit_spline", "rule_report"]
+__all__ = ["Fairness", "SplineAttempt", "attempts", "fairness_of"]

@@ -8,26 +8,26 @@ directions, and taken only if both are proven to keep the tolerance. The loops a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.analysis import NormalizedContour
-from shapespline.errors import InvalidInputError
-from shapespline.geometry import Distances, two_sided_distance
-from shapespline.monitor import Monitor
-from shapespline.values import BSplineCurve, check_degree, periodic_knots
+from shapespline.engines.spline.fairness import GAP_RATIO, SPEED_RATIO, Fairness, fairness_of
+from shapespline.values import BSplineCurve, periodic_knots
 
 if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from shapespline.analysis import NormalizedContour
+    from shapespline.monitor import Monitor
+    from shapespline.typing import Effort
     from shapespline.values import Contour
-from shapespline.engines.spline.fairness import GAP_RATIO, SPEED_RATIO, RuleReport, rule_report
 
 # Extent of the data that the gap limits refer to.
 EXTENT = 100.0
-# Gaps under the rule: corners need some as small as the tolerance, long straight runs large ones.
+# Gaps of a fair curve: corners need some as small as the tolerance, long straight runs large ones.
 # Measured: 0.02 / 0.04 / 0.06 / 0.1 / 0.15 at tolerances 0.1 and 0.5 give 834 / 810 / 807 / 800 /
 # 794 control points over 26 fits.
 LEAST_GAP = (0.015, 0.2)
@@ -37,7 +37,7 @@ FREE_GAPS = (1e-3, 150.0)
 ENOUGH, ACCEPT = 0.97, 0.998
 SAMPLES_PER_SPAN, SAMPLE_WEIGHT = 8, 0.5
 # When the exported curve misses the tolerance, the search is run again with this part of it; when
-# it misses the product rule, with more knots, at last from the data polyline, which keeps it.
+# it is not fair, with more knots, at last from the data polyline, which keeps it.
 TIGHTER = 0.95
 ATTEMPTS = 5
 # Removals tried in the first stage; only outlines far rougher than the tolerance need so many.
@@ -48,107 +48,78 @@ MOST_TRIALS = 20_000
 _RANK = (3, [(1, 1, False, inf)])
 _REMOVE_QUICKLY = (4, [(1, 3, False, 6.0), (3, 8, True, 2.0), (6, 15, True, inf)])
 _REMOVE = (4, [(1, 6, False, 6.0), (3, 8, True, 2.5), (6, 25, True, inf)])
-_INSIST = (7, [(1, 4, False, inf), (3, 12, True, 2.6), (6, 25, True, 1.3), (10, 30, True, inf)])
+_RETRY = (7, [(1, 4, False, inf), (3, 12, True, 2.6), (6, 25, True, 1.3), (10, 30, True, inf)])
 
 
 class _Level(NamedTuple):
     """What an effort spends: fits, passes over what is left, how holes are spread, patience.
 
     After twelve failures in a row no removal is tried whose rank is beyond ``worth_trying``
-    tolerances, and none insisted on that failed by more than ``worth_insisting``.
+    tolerances, and none insisted on that failed by more than ``worth_retrying``.
     """
 
     remove: tuple[int, list[tuple[int, int, bool, float]]]
     passes: int
     spreads: list[int]
-    hope: float
+    stagnation_limit: float
     worth_trying: float = inf
-    worth_insisting: float = inf
+    worth_retrying: float = inf
 
 
 LEVELS = {
     "fast": _Level(_REMOVE_QUICKLY, 0, [], 4.0, worth_trying=6.0),
-    "balanced": _Level(_REMOVE, 1, [0, 2], 8.0, worth_insisting=2.0),
+    "balanced": _Level(_REMOVE, 1, [0, 2], 8.0, worth_retrying=2.0),
     "smallest": _Level(_REMOVE, 4, [0, 2, 4], 1e9),
 }
 
 
-@dataclass(frozen=True)
-class SplineResult:
-    """A single spline and what was proven of it.
+class SplineAttempt(NamedTuple):
+    """One spline that a search ended with.
 
-    Attributes
-    ----------
-    curve : BSplineCurve
-        Over [0, 1]; periodic for a closed contour, clamped for an open one.
-    tolerance : float
-        The one asked for, data units.
-    distances : Distances
-        Of the exported curve, both ways, certified.
-    rule : RuleReport
-        Of the exported curve.
-    counts : dict
-        Ranks, trials, removals and misses of the search.
+    ``curve`` is in data units over [0, 1], periodic for a closed contour, clamped for an open one;
+    ``fairness`` was measured on it, ``counts`` tells of ranks, trials, removals and misses.
     """
 
     curve: BSplineCurve
-    tolerance: float
-    distances: Distances
-    rule: RuleReport
+    fairness: Fairness
     counts: dict[str, int]
 
-    @property
-    def n_control_points(self) -> int:
-        """Number of distinct control points."""
-        return self.curve.n_control_points
 
-    @property
-    def kept(self) -> bool:
-        """Whether both certified distances keep the tolerance."""
-        return self.distances.hausdorff_distance <= self.tolerance
-
-
-def fit_spline(
+def attempts(
     contour: Contour,
+    normalized: NormalizedContour,
     tolerance: float,
     *,
-    degree: int = 3,
-    effort: str = "balanced",
-    product_rule: bool = True,
-    monitor: Monitor | None = None,
-    frame: NormalizedContour | None = None,
-) -> SplineResult:
-    """One B-spline with few control points within a tolerance of the data, both ways.
+    degree: int,
+    effort: Effort,
+    monitor: Monitor,
+    fair: bool = True,
+) -> Generator[SplineAttempt, bool, None]:
+    """One spline with few control points within a tolerance, tried until it keeps what is asked.
+
+    A generator that is sent, after each attempt, whether the curve keeps the tolerance. Where it
+    does not the next one aims at less; where it is not fair the next one begins with more knots, at
+    last from the data polyline, which is fair.
 
     Parameters
     ----------
     contour : Contour
         A closed one gives a periodic spline without a seam, an open one is interpolated at its
         ends.
+    normalized : NormalizedContour
+        Of this contour: the result does not depend on which point of a closed one comes first or
+        which way it runs.
     tolerance : float
         Data units.
     degree : int
         1 to 9.
     effort : {"fast", "balanced", "smallest"}
         How much time goes into the last few control points.
-    product_rule : bool
-        Keep knot gaps within a factor of 1000, speed above 1/20 of its median and self-crossings
-        to those of the data.
-    monitor : Monitor, optional
+    monitor : Monitor
         Hears of the progress and may end the search; the curve is then the last one found.
-    frame : NormalizedContour, optional
-        Of this contour, if it is known.
-
-    Returns
-    -------
-    SplineResult
-        Its ``kept`` says whether the promise holds; where no search keeps it, the nearest curve
-        found is returned.
-
-    Notes
-    -----
-    The result does not depend on which point of a closed contour comes first or which way it runs:
-    it is searched in the order of `NormalizedContour`.
+    fair : bool
+        Keep knot intervals within a factor of 1000, speed above 1/20 of its median and
+        self-crossings to those of the data.
 
     References
     ----------
@@ -156,83 +127,63 @@ def fit_spline(
 
     Examples
     --------
-    >>> import numpy as np
     >>> from shapespline import Contour
+    >>> from shapespline.analysis import NormalizedContour
+    >>> from shapespline.monitor import Monitor
     >>> angle = 2 * np.pi * np.arange(200) / 200
     >>> circle = Contour(np.column_stack([np.cos(angle), np.sin(angle)]), closed=True)
-    >>> fit = fit_spline(circle, 0.01)
-    >>> fit.kept, fit.n_control_points <= 8
+    >>> tried = attempts(
+    ...     circle,
+    ...     NormalizedContour.of(circle),
+    ...     0.01,
+    ...     degree=3,
+    ...     effort="balanced",
+    ...     monitor=Monitor(),
+    ... )
+    >>> first = next(tried)
+    >>> first.fairness.kept, first.curve.n_control_points <= 8
     (True, True)
     """
-    degree = check_degree(degree)
-    if effort not in LEVELS:
-        raise InvalidInputError(f"effort must be one of {', '.join(LEVELS)}, got {effort!r}")
-    if not (np.isfinite(tolerance) and tolerance > 0):
-        raise InvalidInputError(f"tolerance must be a positive number, got {tolerance!r}")
-    monitor = Monitor() if monitor is None else monitor
-    frame = NormalizedContour.of(contour) if frame is None else frame
-    frame = frame.thinned(tolerance * frame.scale, np.empty(0, dtype=np.int64))
-    results: list[SplineResult] = []
+    thinned = normalized.thinned(tolerance * normalized.scale, np.empty(0, dtype=np.int64))
     part, start = 1.0, 0
     for _ in range(ATTEMPTS):
-        search = _search(
-            frame,
-            part * tolerance,
-            degree,
-            LEVELS[effort],
-            product_rule,
-            start,
-            monitor,
-        )
-        curve = _exported(search, frame, contour, degree)
-        result = SplineResult(
-            curve,
-            tolerance,
-            two_sided_distance(curve, contour),
-            rule_report(curve, frame.contour),
-            search.counts(),
-        )
-        results.append(result)
-        if monitor.ended or (result.kept and (result.rule.kept or not product_rule)):
-            break
-        if not result.kept:
+        search = _search(thinned, part * tolerance, degree, LEVELS[effort], fair, start, monitor)
+        curve = _exported(search, thinned, contour, degree)
+        fairness = fairness_of(curve, thinned.contour)
+        kept = yield SplineAttempt(curve, fairness, search.counts())
+        if monitor.ended or (kept and (fairness.kept or not fair)):
+            return
+        if not kept:
             part *= TIGHTER
         elif search.from_polyline():
-            break
+            return
         else:
             start += 1
-    return min(results, key=lambda result: _badness(result, product_rule))
-
-
-def _badness(result: SplineResult, product_rule: bool) -> tuple[bool, bool, float]:
-    """What a result misses of what was asked; then its size, or its distance if it is too far."""
-    size = result.n_control_points if result.kept else result.distances.hausdorff_distance
-    return not result.kept, product_rule and not result.rule.kept, size
 
 
 def _search(
-    frame: NormalizedContour,
+    normalized: NormalizedContour,
     tolerance: float,
     degree: int,
     level: _Level,
-    product_rule: bool,
+    fair: bool,
     start: int,
     monitor: Monitor,
 ) -> _kernels.RemovalSearch:
     """The stages of one search, as many as the monitor allows."""
-    scaled = tolerance * frame.scale - frame.slack
-    unit = frame.extent / EXTENT
+    scaled = tolerance * normalized.scale - normalized.slack
+    unit = normalized.extent / EXTENT
     low, high = (unit * gap for gap in LEAST_GAP)
     least = min(max(LEAST_GAP_TOLERANCES * scaled, low), high)
     least_gap, largest_gap = (
-        (least, GAP_RATIO * least) if product_rule else (unit * gap for gap in FREE_GAPS)
+        (least, GAP_RATIO * least) if fair else (unit * gap for gap in FREE_GAPS)
     )
     search = _kernels.RemovalSearch(
-        frame.contour.points,
-        frame.contour.closed,
+        normalized.contour.points,
+        normalized.contour.closed,
         degree,
         scaled,
-        product_rule,
+        fair,
         start,
         GAP_RATIO,
         SPEED_RATIO,
@@ -242,9 +193,9 @@ def _search(
         ACCEPT,
         SAMPLES_PER_SPAN,
         SAMPLE_WEIGHT,
-        level.hope,
+        level.stagnation_limit,
         level.worth_trying,
-        level.worth_insisting,
+        level.worth_retrying,
         monitor.ends,
     )
     if monitor.stage(search.n_points()):
@@ -253,13 +204,13 @@ def _search(
     for _ in range(level.passes):
         if monitor.stage(search.n_points()):
             break
-        if search.remove_stubborn(_INSIST, level.spreads, monitor.ends) == 0:
+        if search.remove_stubborn(_RETRY, level.spreads, monitor.ends) == 0:
             break
     return search
 
 
 def _exported(
-    search: _kernels.RemovalSearch, frame: NormalizedContour, contour: Contour, degree: int
+    search: _kernels.RemovalSearch, normalized: NormalizedContour, contour: Contour, degree: int
 ) -> BSplineCurve:
     """The curve over [0, 1] in data units; the seam of a periodic one is a simple knot."""
     gap_list, coordinates = search.curve()
@@ -269,7 +220,7 @@ def _exported(
         knots = np.concatenate([[0.0], np.cumsum(gaps)])
         knots /= knots[-1]
         knots[len(points) :] = 1.0  # rounding
-        restored = frame.restored_curve(BSplineCurve(knots, points, degree))
+        restored = normalized.restored_curve(BSplineCurve(knots, points, degree))
         points = restored.control_points.copy()
         points[[0, -1]] = contour.points[[0, -1]]  # but for the rounding of the frame they are
         return BSplineCurve(restored.knots, points, degree)
@@ -278,4 +229,4 @@ def _exported(
     period = np.concatenate([[0.0], np.cumsum(np.roll(gaps, -seam))])
     knots = periodic_knots(len(points), degree, period / period[-1])
     points = np.roll(points, degree - seam, axis=0)
-    return frame.restored_curve(BSplineCurve(knots, points, degree, periodic=True))
+    return normalized.restored_curve(BSplineCurve(knots, points, degree, periodic=True))

@@ -10,12 +10,13 @@ from shapespline import _kernels
 
 if TYPE_CHECKING:
     from shapespline.values import BSplineCurve, Contour
-# Product rule: largest over smallest knot gap, slowest over median speed.
+
+# Largest over smallest knot gap, slowest over median speed.
 GAP_RATIO, SPEED_RATIO = 1000.0, 0.05
 
 
-class RuleReport(NamedTuple):
-    """What the product rule asks about, measured on an exported curve.
+class Fairness(NamedTuple):
+    """How fair an exported curve is.
 
     ``gap_ratio`` is the largest over the smallest non-zero knot gap, ``speed_ratio`` the slowest
     speed over its median (both with respect to the parameter, knots of multiplicity >= degree left
@@ -37,8 +38,8 @@ class RuleReport(NamedTuple):
         )
 
 
-def rule_report(curve: BSplineCurve, contour: Contour) -> RuleReport:
-    """What the product rule asks about, from dense samples of every span.
+def fairness_of(curve: BSplineCurve, contour: Contour) -> Fairness:
+    """How fair a curve is, from dense samples of every span.
 
     Notes
     -----
@@ -63,7 +64,7 @@ def rule_report(curve: BSplineCurve, contour: Contour) -> RuleReport:
     vertices = np.concatenate([curve(u), curve(u[:1] if curve.periodic else breaks[-1:])])
     if not curve.periodic:
         vertices = np.concatenate([curve(breaks[:1]), vertices])
-    return RuleReport(
+    return Fairness(
         float(gaps.max() / gaps.min()),
         slowest / median if median > 0 else 0.0,
         _kernels.count_crossings(np.ascontiguousarray(vertices)),

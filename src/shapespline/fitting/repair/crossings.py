@@ -22,6 +22,7 @@ from shapespline.fitting.repair.assignment import (
 )
 from shapespline.fitting.repair.clearance import Sides, moved
 from shapespline.fitting.repair.refit import (
+    Refit,
     Window,
     fitted_again,
     turned_apart,
@@ -32,10 +33,10 @@ from shapespline.fitting.verify import verified_fit
 from shapespline.geometry import chords, crossing_pairs, joined, nearest, self_crossings
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from shapespline.fitting.repair.assignment import DataRun
-    from shapespline.fitting.repair.refit import Refit
+    from shapespline.fitting.request import Request
     from shapespline.typing import FloatArray
     from shapespline.values import Contour, Fit
 
@@ -67,12 +68,25 @@ FOLLOWING = ("sections", "removal")
 CROSSES = "it crosses a curve where the data do not"
 
 
-def uncrossed(contours: Sequence[Contour], fits: Sequence[Fit], refit: Refit) -> list[Fit]:
+def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
+    """A fit of one outline in pieces that crosses itself no more than its data."""
+    if not request.is_plain or request.style.form == "spline":
+        return fit
+    return uncrossed([request.contour], [fit], request, ask)[0]
+
+
+def uncrossed(
+    contours: Sequence[Contour],
+    fits: Sequence[Fit],
+    request: Request,
+    ask: Callable[[Request], Fit],
+) -> list[Fit]:
     """Fits whose curves cross no more than their data, as far as other pieces bring that about.
 
-    ``refit`` is that of `fitted_again`. Of the rows tried the one with the fewest parts that cross
-    is taken. Fits that cross after all say so in their status.
+    ``ask`` answers sub-requests in the style of ``request``. Of the rows tried the one with the
+    fewest parts that cross is taken. Fits that cross after all say so in their status.
     """
+    refit = Refit(request, ask)
     lines = [_line(fit) for fit in fits]
     pairs = _new_crossings(contours, lines)
     if not pairs:

@@ -7,6 +7,7 @@ the tangents there held.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -20,17 +21,29 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from shapespline.fitting.repair.assignment import DataRun
+    from shapespline.fitting.request import Request, Tangents
     from shapespline.typing import FloatArray
     from shapespline.values import Fit
 
-    Refit = Callable[[Contour, float, "Tangents", Sequence[int]], Fit]
     # The points of a window, of its row and trail, as they are to be fitted.
     Aim = Callable[[PieceAssignment, Sequence[AssignedPiece], DataRun], FloatArray]
 
 # Joints that turn less than this, radians, are smooth.
 SMOOTH = np.radians(1.0)
 
-Tangents = tuple["FloatArray | None", "FloatArray | None"]
+
+@dataclass(frozen=True, eq=False)
+class Refit:
+    """Asks for some points of a request to be fitted again, by a sub-request."""
+
+    request: Request
+    ask: Callable[[Request], Fit]
+
+    def __call__(
+        self, contour: Contour, within: float, tangents: Tangents, through: Sequence[int]
+    ) -> Fit:
+        """An open row of points within a distance, its ends kept, through some of the points."""
+        return self.ask(self.request.part(contour, within, tangents, through))
 
 
 class Window(NamedTuple):

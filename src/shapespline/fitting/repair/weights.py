@@ -14,6 +14,7 @@ import numpy as np
 from shapespline.engines.least_squares import given_weights
 from shapespline.fitting.repair.assignment import PieceAssignment
 from shapespline.fitting.repair.refit import (
+    Refit,
     Window,
     fitted_again,
     turned_apart,
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from shapespline.fitting.repair.refit import Refit
+    from shapespline.fitting.request import Request
     from shapespline.typing import ArrayLike, FloatArray, IntArray
     from shapespline.values import BSplineCurve, Contour, Fit
 
@@ -76,6 +77,19 @@ class Limits(NamedTuple):
         distances_sq = nearest(curve, contour.points[heavy]).distances_sq
         missed[heavy] = distances_sq > self.lengths[heavy] ** 2
         return missed
+
+
+def respect_weights(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
+    """A fit within a tolerance that comes as near to heavy points as their weights say."""
+    if request.weights is None or request.tolerance is None:
+        return fit
+    limits = Limits.of(request.weights, request.contour, request.tolerance)
+    apart = request.is_plain and request.style.form != "spline"
+
+    def whole(within: float, through: IntArray | None) -> Fit:
+        return ask(request.closer(within, through))
+
+    return weighted(fit, limits, Refit(request, ask) if apart else None, whole)
 
 
 def weighted(fit: Fit, limits: Limits, refit: Refit | None, whole: Whole) -> Fit:

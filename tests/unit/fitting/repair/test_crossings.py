@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from benchmarks.outside_metric import two_sided
 from tests.support import shapes
+from tests.support.engines import fit_pieces
 from tests.support.places import IMAGES
 from tests.support.shapes import airfoil, ribbon
 
 import shapespline as ss
-from shapespline.engines.pieces.engine import fit_pieces
 from shapespline.fitting.repair.crossings import _no_larger_than_data
 from shapespline.fitting.verify import verified_fit
 from shapespline.geometry.flattening import sampled

@@ -1,0 +1,80 @@
+"""The one order of preference: which of the curves that were verified is the best."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from shapespline.fitting.problem import Problem
+    from shapespline.fitting.verify import Verified
+
+# Beyond this part of the number of points the data are rough: such a curve follows, it tells
+# nothing of what was drawn, and lines may be the smaller.
+ROUGH_PART = 0.3
+
+
+class Shortlist:
+    """The verified candidates for a problem, and the best of them.
+
+    The order of preference, first what counts most:
+
+    1. both distances keep the tolerance;
+    2. tangents that were asked for are met;
+    3. the curve is fair (even knots, no near-cusp, no crossing that the data have not), where it
+       stands in for corners of the data;
+    4. no corners where the data have none, if one smooth spline follows them;
+    5. the fewest stored points; of curves that miss the tolerance the nearest;
+    6. the simpler structure: one spline, a symmetric one, pieces, lines, lines through all points;
+    7. the one that was found first.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+        self._verified: list[Verified] = []
+
+    def add(self, verified: Verified) -> None:
+        """Take one more into account."""
+        self._verified.append(verified)
+
+    def __len__(self) -> int:
+        return len(self._verified)
+
+    @property
+    def best(self) -> Verified:
+        """The one that is preferred to all others."""
+        return min(self._verified, key=self._preference)
+
+    @property
+    def kept(self) -> bool:
+        """Whether one keeps the tolerance."""
+        return any(verified.kept for verified in self._verified)
+
+    def among(self, *ranks: int) -> Verified | None:
+        """The best of some ranks, None if there is none of them."""
+        those = [one for one in self._verified if one.candidate.rank in ranks]
+        return min(those, key=self._preference) if those else None
+
+    def follows(self, verified: Verified) -> bool:
+        """Whether a curve keeps the tolerance with few points for those of the data."""
+        most = ROUGH_PART * len(self._problem.contour)
+        return verified.kept and verified.fit.n_stored_points <= most
+
+    def _preference(self, verified: Verified) -> tuple[bool, bool, bool, bool, float, int]:
+        problem, candidate = self._problem, verified.candidate
+        instead = bool(candidate.fairness) and problem.has_corners
+        return (
+            not verified.kept,
+            verified.tangent_error > 0,
+            instead and not verified.fair,
+            self._makes_corners(verified),
+            verified.fit.n_stored_points if verified.kept else verified.fit.hausdorff_distance,
+            candidate.rank,
+        )
+
+    def _makes_corners(self, verified: Verified) -> bool:
+        """Whether a curve has corners where the data, which a smooth one follows, have none."""
+        if not verified.fit.sections or self._problem.has_corners:
+            return False
+        if self._problem.request.style.free or not len(verified.fit.corners):
+            return False
+        return any(self.follows(one) for one in self._verified if not one.fit.sections)

@@ -1,0 +1,134 @@
+"""The plan: which strategies are asked for a request, and in which order.
+
+A generator that looks at the shortlist before it names the next strategy, so that none is asked
+whose curve would not be taken.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+from shapespline.engines.pieces import chords_found, drawn_straight, in_facets
+from shapespline.fitting.choose import ROUGH_PART
+from shapespline.fitting.estimate import (
+    Estimation,
+    InBand,
+    ObservedPieces,
+    SmoothedSpline,
+    WeightedSpline,
+)
+from shapespline.fitting.request import Estimate, OfSize
+from shapespline.fitting.strategies import (
+    EVERY_POINT,
+    LINES,
+    MIRRORED,
+    ONE_SPLINE,
+    PIECES,
+    LeastSquares,
+    Lines,
+    MirroredPieces,
+    OneSpline,
+    Pieces,
+    ThroughAll,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from shapespline.fitting.choose import Shortlist
+    from shapespline.fitting.problem import Problem
+    from shapespline.fitting.strategies import Ask, Strategy
+    from shapespline.fitting.verify import Verified
+    from shapespline.monitor import Monitor
+
+# Beyond this part of the vertices of a polyline found in one pass, which are more than need be,
+# lines are looked at.
+CHORDS_PART = 0.7
+
+
+def plan(problem: Problem, shortlist: Shortlist, monitor: Monitor, ask: Ask) -> Iterator[Strategy]:
+    """Strategies for a request, the next one named after the last one was verified."""
+    goal = problem.request.goal
+    if isinstance(goal, OfSize):
+        yield LeastSquares()
+    elif isinstance(goal, Estimate):
+        yield from _plan_estimate(problem, shortlist, monitor, ask)
+    else:
+        yield from _plan_within(problem, shortlist, ask)
+
+
+def _plan_estimate(
+    problem: Problem, shortlist: Shortlist, monitor: Monitor, ask: Ask
+) -> Iterator[Strategy]:
+    """The curve behind noisy points, in pieces where they tell of these; clean ones in a band."""
+    if problem.request.weights is not None:
+        yield WeightedSpline()
+        return
+    estimation = Estimation(problem, monitor)
+    if not estimation.shown.clean:
+        if problem.request.style.form == "pieces":
+            yield ObservedPieces(estimation)
+        if not len(shortlist):
+            yield SmoothedSpline(estimation)
+    # Points that neither comes near are no noisy curve after all.
+    if not len(shortlist):
+        yield InBand(estimation.shown.band, ask)
+
+
+def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[Strategy]:
+    """A curve within a tolerance, of the form that was asked for."""
+    request = problem.request
+    if request.style.form == "spline":
+        yield OneSpline()
+        return
+    if request.pieces_only:
+        yield from plan_pieces(problem, shortlist)
+        return
+    if request.is_plain and problem.looks_smooth:
+        yield OneSpline()
+        if shortlist.follows(shortlist.best):
+            return
+    if not (request.style.free or request.constraints.anything) and (
+        request.symmetric or request.effort != "fast"
+    ):
+        if problem.contour.closed:
+            yield MirroredPieces(ask)
+        if request.symmetric and shortlist.among(MIRRORED):
+            return
+    yield from plan_pieces(problem, shortlist)
+    in_pieces = shortlist.among(MIRRORED, PIECES, LINES, EVERY_POINT)
+    if shortlist.among(ONE_SPLINE) or in_pieces is None:
+        return
+    if _one_spline_may_be_better(problem, in_pieces):
+        yield OneSpline()
+
+
+def plan_pieces(problem: Problem, shortlist: Shortlist) -> Iterator[Strategy]:
+    """Pieces alone: curves, lines where they are fewer, at last a line for every point."""
+    yield Pieces()
+    found = shortlist.among(PIECES)
+    count = found.fit.n_stored_points if found is not None and found.kept else inf
+    # Where the caller knows the corners lines would make others.
+    few, no_lines = count <= ROUGH_PART * len(problem.contour), True
+    if not problem.request.style.names_corners:
+        chords = chords_found(problem.thinned)
+        few = few and count <= chords.n_points
+        no_lines = chords.follow_curve or count <= CHORDS_PART * chords.n_points
+    if few and no_lines:
+        return
+    yield Lines(needed=not few, fewer_than=count)
+    if not shortlist.kept:
+        yield ThroughAll()
+
+
+def _one_spline_may_be_better(problem: Problem, in_pieces: Verified) -> bool:
+    """Whether a single spline may replace pieces without bending what was drawn."""
+    request, pieces = problem.request, in_pieces.fit.sections
+    if request.constraints.anything:
+        return False
+    if problem.has_corners:
+        return not request.style.names_corners and in_facets(pieces, problem.contour.closed)
+    if request.style.free:
+        return True
+    return not any(drawn_straight(piece, problem.drawn, problem.tolerance) for piece in pieces)

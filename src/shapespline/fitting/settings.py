@@ -1,0 +1,237 @@
+"""Settings: the options of a fit whatever its points are, checked against each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, get_args
+
+import numpy as np
+
+from shapespline.engines.least_squares import named_solver
+from shapespline.errors import InvalidInputError
+from shapespline.monitor import checked_time_limit
+from shapespline.typing import CornerChoice, Effort, Ends, Form, Knots
+from shapespline.validation import (
+    checked_choice,
+    checked_flag,
+    checked_indices,
+    float_array,
+    is_number,
+)
+from shapespline.values import check_count, check_degree
+
+if TYPE_CHECKING:
+    from shapespline.typing import ArrayLike
+    from shapespline.values import Contour
+
+DEFAULT_METHOD = "levenberg-marquardt"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Settings:
+    """The options of `fit_curve` without its points, checked against each other.
+
+    What an option means is said there. An option that would not act is refused with a sentence;
+    the only ones that may be said in vain are those that hold anyway (the ends of a closed outline,
+    corners that are free on one smooth spline).
+
+    Raises
+    ------
+    InvalidInputError
+        If an option is not usable, or acts with none of the others.
+
+    Examples
+    --------
+    >>> Settings(tolerance="0.1%", effort="fast").to_dict()
+    {'tolerance': '0.1%', 'effort': 'fast'}
+    >>> Settings.from_dict({"n_control_points": 12}).n_control_points
+    12
+    """
+
+    tolerance: float | str | None = None
+    n_control_points: int | None = None
+    degree: int = 3
+    corners: CornerChoice | ArrayLike | None = "auto"
+    form: Form = "pieces"
+    ends: Ends = "free"
+    end_tangents: tuple[ArrayLike | None, ArrayLike | None] | None = None
+    through: ArrayLike | None = None
+    symmetric: bool = False
+    effort: Effort = "balanced"
+    weights: ArrayLike | None = None
+    knots: Knots = "balanced"
+    outliers: bool = False
+    method: str = DEFAULT_METHOD
+    time_limit: float | None = None
+
+    def __post_init__(self) -> None:
+        set_ = object.__setattr__
+        set_(self, "degree", check_degree(self.degree))
+        for name, words in (("form", Form), ("ends", Ends), ("effort", Effort), ("knots", Knots)):
+            checked_choice(name, getattr(self, name), get_args(words))
+        for name in ("symmetric", "outliers"):
+            set_(self, name, checked_flag(name, getattr(self, name)))
+        set_(self, "time_limit", checked_time_limit(self.time_limit))
+        named_solver(self.method)
+        if self.tolerance is not None:
+            _checked_tolerance(self.tolerance)
+        if self.n_control_points is not None:
+            set_(self, "n_control_points", check_count(self.n_control_points, self.degree))
+        if not (self.corners is None or isinstance(self.corners, str)):
+            expected = "'auto', 'free', None or indices of points"
+            set_(self, "corners", checked_indices("corners", self.corners, expected))
+        elif isinstance(self.corners, str) and self.corners not in get_args(CornerChoice):
+            raise InvalidInputError(
+                f"corners must be 'auto', 'free', None or indices, got {self.corners!r}"
+            )
+        if self.end_tangents is not None:
+            set_(self, "end_tangents", _directions(self.end_tangents))
+        if self.through is not None:
+            expected = "None or indices of points"
+            set_(self, "through", checked_indices("through", self.through, expected))
+        if self.weights is not None:
+            set_(self, "weights", float_array(self.weights, "weights"))
+        self._check_together()
+
+    def _check_together(self) -> None:
+        """Raise if an option would be dropped beside the others."""
+        if self.tolerance is not None and self.n_control_points is not None:
+            raise InvalidInputError("tolerance and n_control_points exclude each other: give one")
+        sized, within = self.n_control_points is not None, self.tolerance is not None
+        if self.knots != "balanced" and not sized:
+            raise InvalidInputError("knots act with n_control_points only: give a number of them")
+        if self.method != DEFAULT_METHOD and within:
+            raise InvalidInputError(
+                "method acts in least squares, not within a tolerance: leave one of them out"
+            )
+        if self.method != DEFAULT_METHOD and not self._one_spline:
+            raise InvalidInputError(
+                "method acts with n_control_points, weights or form='spline': give one of them"
+            )
+        if self._has("end_tangents", "through", "symmetric") and not within:
+            raise InvalidInputError(
+                "end_tangents, through and symmetric act within a tolerance: give one"
+            )
+        for other in ("n_control_points", "weights"):
+            if not within and getattr(self, other) is not None:
+                self._refuse(("corners", "form", "effort"), f"with {other}")
+        if self.form == "spline" and within:
+            if not isinstance(self.corners, str | None):
+                raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
+            if self._has("end_tangents", "through"):
+                raise InvalidInputError("end_tangents and through act with form='pieces' only")
+            if self.symmetric:
+                raise InvalidInputError("symmetric acts with form='pieces' only")
+        held = self.end_tangents is not None and self.end_tangents != (None, None)
+        if held and isinstance(self.corners, str) and self.corners == "free":
+            raise InvalidInputError(
+                "end_tangents do not act with corners='free': joints are free there"
+            )
+
+    @property
+    def _one_spline(self) -> bool:
+        """Whether least squares make one spline."""
+        return (
+            self.n_control_points is not None or self.weights is not None or self.form == "spline"
+        )
+
+    def _has(self, *names: str) -> bool:
+        values = [getattr(self, name) for name in names]
+        return any(value is not None and value is not False for value in values)
+
+    def _refuse(self, names: tuple[str, ...], beside: str) -> None:
+        """Raise if one of some options was said."""
+        for name in names:
+            value, default = getattr(self, name), type(self).__dataclass_fields__[name].default
+            if not (isinstance(value, str) and value == default):
+                raise InvalidInputError(f"{name} does not act {beside}: leave one of them out")
+
+    def to_dict(self) -> dict[str, Any]:
+        """What differs from the defaults, as numbers, words and lists: what JSON and TOML hold."""
+        said = {item.name: getattr(self, item.name) for item in fields(self)}
+        return {
+            name: plain(value)
+            for name, value in said.items()
+            if not (value is None and name != "corners")
+            and not (
+                isinstance(value, str | int | float)
+                and value == type(self).__dataclass_fields__[name].default
+            )
+        }
+
+    @classmethod
+    def from_dict(cls, options: Mapping[str, Any]) -> Settings:
+        """The settings that some options make; one that is not among them is refused."""
+        known = [item.name for item in fields(cls)]
+        for name in options:
+            if name not in known:
+                raise InvalidInputError(
+                    f"{name} is not an option of a fit; these are: {', '.join(sorted(known))}"
+                )
+        return cls(**options)
+
+
+def tolerance_length(tolerance: float | str, contour: Contour) -> float:
+    """A tolerance as a length in data units: a number, or a part of the box diagonal in per cent.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> tolerance_length("0.5%", Contour([(0, 0), (3, 4)]))
+    0.025
+    """
+    number, is_part = _checked_tolerance(tolerance)
+    return number * (0.01 * contour.box_diagonal) if is_part else number
+
+
+def _checked_tolerance(tolerance: object) -> tuple[float, bool]:
+    """The number of a tolerance, and whether it is a part of the box diagonal in per cent."""
+    number, is_part = np.nan, False
+    if isinstance(tolerance, str):
+        text = tolerance.strip()
+        is_part = text.endswith("%")
+        with suppress(ValueError):
+            number = float(text.removesuffix("%"))
+    elif is_number(tolerance):
+        number = float(tolerance)  # type: ignore[arg-type]
+    if not 0 < number < np.inf:
+        raise InvalidInputError(
+            "tolerance must be a positive length in data units, or a part of the box diagonal"
+            f" such as '0.1%', got {tolerance!r}"
+        )
+    return number, is_part
+
+
+def _directions(
+    end_tangents: object,
+) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
+    """A pair of unit vectors, None where the direction is free."""
+    message = (
+        "end_tangents must be a pair of vectors (x, y), None where the direction is free,"
+        f" got {end_tangents!r}"
+    )
+    if isinstance(end_tangents, str) or not isinstance(end_tangents, Sequence | np.ndarray):
+        raise InvalidInputError(message)
+    if len(end_tangents) != 2:
+        raise InvalidInputError(message)
+    found: list[tuple[float, float] | None] = []
+    for tangent in end_tangents:
+        if tangent is None:
+            found.append(None)
+            continue
+        given = float_array(tangent, "end_tangents")
+        length = float(np.hypot(*given)) if given.shape == (2,) else 0.0
+        if not 0 < length < np.inf:
+            raise InvalidInputError(message)
+        x, y = (given / length).tolist()
+        found.append((x, y))
+    return found[0], found[1]
+
+
+def plain(value: Any) -> Any:
+    """Arrays and tuples as lists."""
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return [plain(item) for item in value] if isinstance(value, tuple) else value

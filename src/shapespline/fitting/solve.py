@@ -1,0 +1,67 @@
+"""solve: one way from a request to a verified Fit, for sizes, tolerances and estimates alike.
+
+The plan names strategies, each proposes candidates, each candidate is verified in one place, one
+order of preference chooses, then repairs ask for parts of the curve anew in the same way.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from shapespline.fitting.choose import Shortlist
+from shapespline.fitting.plan import plan
+from shapespline.fitting.problem import Problem
+from shapespline.fitting.repair import respect_weights, uncross
+from shapespline.fitting.streamed import MANY_POINTS, streamed
+from shapespline.fitting.verify import finished, verify
+
+if TYPE_CHECKING:
+    from shapespline.fitting.request import Request
+    from shapespline.fitting.verify import Verified
+    from shapespline.monitor import Monitor
+    from shapespline.values import Fit
+
+
+def solve(request: Request, monitor: Monitor) -> Fit:
+    """The fit that a request asks for.
+
+    Examples
+    --------
+    >>> from shapespline.fitting import Request, Settings
+    >>> from shapespline.monitor import Monitor
+    >>> corner = Request.of([(0, 0), (1, 0), (2, 0), (2, 1)], False, Settings(tolerance=0.1))
+    >>> solve(corner, Monitor()).n_stored_points
+    3
+    """
+
+    def ask(sub_request: Request) -> Fit:
+        return finished(search(Problem(sub_request), monitor), monitor)
+
+    fit = None
+    if request.tolerance is not None and request.is_plain and len(request.contour) >= MANY_POINTS:
+        fit = streamed(request, monitor, search)
+    if fit is None or not (fit.kept or monitor.ended):
+        fit = ask(request)
+        if request.tolerance is not None and not monitor.ended:
+            fit = uncross(fit, request, ask)
+    if request.tolerance is not None and request.weights is not None:
+        fit = respect_weights(fit, request, ask)
+    return replace(fit, outliers=request.left_out)
+
+
+def search(problem: Problem, monitor: Monitor) -> Verified:
+    """The best of what the strategies of the plan propose, each verified."""
+    shortlist = Shortlist(problem)
+    for strategy in plan(problem, shortlist, monitor, search):
+        proposals = strategy.propose(problem, monitor)
+        with suppress(StopIteration):
+            candidate = next(proposals)
+            while True:
+                verified = verify(candidate, problem.request)
+                shortlist.add(verified)
+                candidate = proposals.send(verified)
+        if monitor.ended and len(shortlist):
+            break
+    return shortlist.best

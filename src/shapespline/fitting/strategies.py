@@ -1,0 +1,195 @@
+"""Strategies within a tolerance and of a given size: each asks one engine for candidates.
+
+A strategy is anything with `propose`: a generator of candidates that is sent each one verified.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+from shapespline.engines.least_squares import (
+    FINAL_LIMITS,
+    STRAY_WEIGHT,
+    balanced_start,
+    dominant_start,
+    minimized,
+    named_solver,
+    summed_weights,
+    uniform_start,
+)
+from shapespline.engines.pieces import (
+    TOLERANCE_FACTORS,
+    MirroredHalf,
+    drawn_with_lines,
+    in_data,
+    n_points_of,
+    search_lines,
+    search_pieces,
+    through_all,
+)
+from shapespline.engines.spline import attempts
+from shapespline.fitting.problem import Problem
+from shapespline.fitting.request import OfSize, Request, Style, Within
+from shapespline.fitting.verify import Candidate, Verified
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator
+
+    from shapespline.monitor import Monitor
+    from shapespline.typing import FloatArray
+    from shapespline.values import Piece
+
+    Proposals: TypeAlias = Generator[Candidate, Verified, None]
+    # Answers a sub-request by the same plan and order of preference.
+    Ask: TypeAlias = Callable[[Problem, Monitor], Verified]
+
+# The simpler structure has the smaller rank; see `choose`.
+ONE_SPLINE, MIRRORED, PIECES, LINES, EVERY_POINT = range(5)
+# What least squares of a given size starts from.
+STARTS = {"balanced": balanced_start, "dominant": dominant_start, "uniform": uniform_start}
+
+
+class Strategy(Protocol):
+    """A way to a curve."""
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """Candidates, one after another, until one is good enough or no more can be done."""
+
+
+class OneSpline:
+    """The smallest single spline (knot removal)."""
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """Curves of tighter and tighter searches, then of other starts."""
+        request = problem.request
+        tried = attempts(
+            problem.contour,
+            problem.normalized,
+            problem.tolerance,
+            degree=request.style.degree,
+            effort=request.effort,
+            monitor=monitor,
+        )
+        with suppress(StopIteration):
+            attempt = next(tried)
+            while True:
+                verified = yield Candidate(
+                    method="removal",
+                    rank=ONE_SPLINE,
+                    spline=attempt.curve,
+                    fairness=attempt.fairness,
+                )
+                attempt = tried.send(verified.kept)
+
+
+class Pieces:
+    """Lines, Beziers and small splines (shortest path, then moves)."""
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """Curves of searches that aim at less and less, until one keeps the tolerance."""
+        request = problem.request
+        for factor in TOLERANCE_FACTORS:
+            found = search_pieces(
+                problem.thinned,
+                factor,
+                degree=request.style.degree,
+                effort=request.effort,
+                free=request.style.free,
+                monitor=monitor,
+            )
+            if found:
+                verified = yield _of_pieces(problem, found, PIECES)
+                if verified.kept:
+                    return
+            if monitor.ended:
+                return
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Lines alone: what curves cannot follow lines do.
+
+    ``needed`` tells that curves do not follow the data with few points; else lines are proposed
+    only if they were drawn: fewer than ``fewer_than`` points, and corners everywhere.
+    """
+
+    needed: bool
+    fewer_than: float
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve, or none."""
+        lines, closed = search_lines(problem.thinned), problem.contour.closed
+        drawn = n_points_of(lines) + (not closed) < self.fewer_than
+        if self.needed or (drawn and drawn_with_lines(lines, closed)):
+            yield _of_pieces(problem, lines, LINES)
+
+
+class ThroughAll:
+    """A line from each point to the next, which keeps every tolerance."""
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve."""
+        yield _of_pieces(problem, through_all(problem.normalized.contour), EVERY_POINT)
+
+
+@dataclass(frozen=True)
+class MirroredPieces:
+    """One half of a symmetric outline in pieces, the other one its mirror image."""
+
+    ask: Ask
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve that keeps the tolerance, or none."""
+        request = problem.request
+        half = MirroredHalf.of(problem.thinned)
+        if half is None:
+            return
+        asked = Request(
+            contour=half.contour,
+            goal=Within(half.tolerance),
+            style=Style(request.style.degree, "pieces", half.corners),
+            constraints=half.constraints,
+            effort=request.effort,
+            pieces_only=True,
+        )
+        found = self.ask(Problem(asked), monitor)
+        if found.kept and not found.tangent_error:
+            yield _of_pieces(problem, half.whole(found.fit.sections), MIRRORED)
+
+
+def _of_pieces(problem: Problem, pieces: tuple[Piece, ...], rank: int) -> Candidate:
+    """A candidate in the unit and direction of the data."""
+    constraints = problem.request.constraints
+    found = in_data(problem.pieces, pieces, problem.contour, constraints)
+    return Candidate(method="sections", rank=rank, pieces=found)
+
+
+class LeastSquares:
+    """One spline of a given size: control points and parameters together."""
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve."""
+        request = problem.request
+        goal, contour = request.goal, problem.contour
+        if not isinstance(goal, OfSize):
+            return
+        weights = summed(request)
+        start = STARTS[goal.knots](contour, goal.n_control_points, request.style.degree, weights)
+        solver, name = named_solver(goal.method)
+        found = minimized(
+            contour,
+            start,
+            solver,
+            weights=weights,
+            stray_weight=STRAY_WEIGHT,
+            limits=FINAL_LIMITS,
+            callback=monitor.iterated,
+        )
+        yield Candidate(method=name, spline=found.spline, run=found.run, history=found.history)
+
+
+def summed(request: Request) -> FloatArray | None:
+    """The weights of a request, one for each point of its contour."""
+    return None if request.weights is None else summed_weights(request.weights, request.contour)
