@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 IMAGES := examples/data/images
 OUTLINES := examples/data/outlines
-KERNEL := $(wildcard kernels/*.[ch]pp kernels/include/shapespline/*.hpp)
+KERNEL := $(wildcard kernels/bindings/*.[ch]pp kernels/include/shapespline/*/*.hpp)
 
 .PHONY: demo test quick lint bench paper figures clean
 .DEFAULT_GOAL := demo

@@ -1,4 +1,4 @@
-# The compiled loops (kernels/bindings.cpp). They check and convert nothing: arrays must be
+# The compiled loops (kernels/bindings). They check and convert nothing: arrays must be
 # C-contiguous float64 (first: int64) of the shapes said here, outputs are written in place.
 # nc = len(knots) - degree - 1 unrolled coefficients, m distinct control points, n data points.
 from collections.abc import Callable
