@@ -15,9 +15,18 @@ struct Chord {
     Vec2 begin, end;
 };
 
+// Whether the last one ends where the first one begins, to rounding.
+inline bool closes(std::span<const Chord> chords) {
+    const Chord &first = chords.front(), &last = chords.back();
+    constexpr double kRounding = 1e-9;
+    return norm(last.end - first.begin) <=
+           kRounding * (norm(first.end - first.begin) + norm(last.end - last.begin));
+}
+
 // Number of crossings among segments: a sweep over them sorted by x. A point on a segment lies to
 // the left of it, so that a way through a vertex crosses once, and one that only touches it not at
-// all or twice. Neighbours that share an end, to rounding, do not cross.
+// all or twice. Neighbours that share an end, to rounding, do not cross: the last one and the first
+// of a closed way neither.
 inline int count_crossings(std::span<const Chord> chords) {
     const int n = static_cast<int>(chords.size());
     struct Item {
@@ -39,11 +48,12 @@ inline int count_crossings(std::span<const Chord> chords) {
         const auto left = [](Vec2 p, Vec2 q, Vec2 r) { return cross(q - p, r - p) >= 0.0; };
         return left(a, b, c) != left(a, b, d) && left(c, d, a) != left(c, d, b);
     };
+    const int most_apart = n > 0 && closes(chords) ? n - 1 : n;
     int count = 0;
     for (int i = 0; i < n; ++i)
         for (int k = i + 1; k < n && items[k].low <= items[i].high; ++k) {
             const int apart = std::abs(items[i].chord - items[k].chord);
-            if (apart > 1 && apart < n - 1 && crosses(items[i].chord, items[k].chord)) ++count;
+            if (apart > 1 && apart < most_apart && crosses(items[i].chord, items[k].chord)) ++count;
         }
     return count;
 }
