@@ -30,12 +30,17 @@ class SectionRing {
         return sum;
     }
 
-    // Sections i0 .. i1, their data increasing from the middle lap on.
+    // Sections i0 .. i1, their data increasing from the middle lap on: no window of a lap at most
+    // leaves the three.
     std::vector<Section> window(long i0, long i1) const {
         std::vector<Section> result;
         for (long i = i0; i <= i1; ++i) {
             result.push_back(at(i));
-            if (result.size() > 1) shift_to(result.back(), result[result.size() - 2].last + 1);
+            Section &last = result.back();
+            if (result.size() > 1)
+                shift_to(last, result[result.size() - 2].last + 1);
+            else if (closed())
+                shift_to(last, origin(last) + period_);
         }
         return result;
     }
