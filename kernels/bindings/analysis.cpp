@@ -18,7 +18,7 @@ void bind_analysis(nb::module_ &m) {
         "unsigned_sums"_a.noconvert());
 
     m.def(
-        "mean_distances",
+        "centroid_distances_sq",
         [](In2 points, Out1 distances_sq) {
             nb::gil_scoped_release release;
             ss::analysis::centroid_distances_sq(vectors(points), distances_sq.data());

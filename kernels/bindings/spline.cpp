@@ -4,42 +4,52 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <vector>
+
 #include "arrays.hpp"
 #include "shapespline/spline/search.hpp"
 
 using namespace nb::literals;
-using Removal = ss::spline::RemovalSearch;
+namespace spline = ss::spline;
+using spline::RemovalSearch;
+
+namespace {
+
+void bind_settings(nb::module_ &m) {
+    nb::class_<spline::FitStage>(m, "FitStage")
+        .def(nb::init<int, int, bool, double>(), "half_power"_a, "iterations"_a,
+             "intervals_free"_a, "give_up"_a);
+    nb::class_<spline::Effort>(m, "RemovalEffort")
+        .def(nb::init<int, std::vector<spline::FitStage>>(), "n_side"_a, "stages"_a);
+    nb::class_<spline::FitLimits>(m, "FitLimits")
+        .def(nb::init<double, double, int, double, double, double, double>(), nb::kw_only(),
+             "tolerance"_a, "enough"_a, "samples_per_span"_a, "sample_weight"_a,
+             "least_interval"_a, "largest_interval"_a, "stagnation_limit"_a);
+    nb::class_<spline::Fairness>(m, "Fairness")
+        .def(nb::init<double, double>(), nb::kw_only(), "interval_ratio"_a, "speed_ratio"_a);
+    nb::class_<spline::SplineSettings>(m, "SplineSettings")
+        .def(nb::init<spline::FitLimits, spline::Fairness, bool, int, double, double, double>(),
+             nb::kw_only(), "fit"_a, "fairness"_a, "keep_fair"_a, "start"_a, "accept"_a,
+             "worth_trying"_a, "worth_retrying"_a);
+}
+
+}  // namespace
 
 void bind_spline(nb::module_ &m) {
-    nb::class_<ss::spline::RemovalSearch>(m, "RemovalSearch")
+    bind_settings(m);
+    nb::class_<RemovalSearch>(m, "RemovalSearch")
         .def(
             "__init__",
-            [](ss::spline::RemovalSearch *self, In2 data, bool closed, int degree,
-               double tolerance,
-               bool keep_rule, int start, double gap_ratio, double speed_ratio,
-               double least_gap, double largest_gap, double enough, double accept,
-               int samples_per_span,
-               double sample_weight, double hope, double worth_trying,
-               double worth_insisting, nb::object ask) {
+            [](RemovalSearch *self, In2 data, bool closed, int degree,
+               const spline::SplineSettings &settings, nb::object ask) {
                 ss::Interruption asking = interruption(ask);
                 nb::gil_scoped_release release;
-                const ss::spline::FitLimits fit{tolerance,     enough,    samples_per_span,
-                                        sample_weight, least_gap, largest_gap,
-                                        hope};
-                new (self) ss::spline::RemovalSearch(
-                    vectors(data), closed, degree,
-                    {tolerance, keep_rule, start, {gap_ratio, speed_ratio}, fit,
-                     accept, worth_trying, worth_insisting},
-                    asking);
+                new (self) RemovalSearch(vectors(data), closed, degree, settings, asking);
             },
-            "data"_a.noconvert(), "closed"_a, "degree"_a, "tolerance"_a, "keep_rule"_a,
-            "start"_a, "gap_ratio"_a, "speed_ratio"_a, "least_gap"_a,
-            "largest_gap"_a, "enough"_a,
-            "accept"_a, "samples_per_span"_a, "sample_weight"_a, "hope"_a,
-            "worth_trying"_a, "worth_insisting"_a, "ask"_a)
+            "data"_a.noconvert(), "closed"_a, "degree"_a, "settings"_a, "ask"_a)
         .def(
             "remove_cheapest",
-            [](Removal &self, const Removal::EffortTuple &rank, const Removal::EffortTuple &effort,
+            [](RemovalSearch &self, const spline::Effort &rank, const spline::Effort &effort,
                long most_trials, nb::object ask) {
                 ss::Interruption asking = interruption(ask);
                 nb::gil_scoped_release release;
@@ -47,16 +57,16 @@ void bind_spline(nb::module_ &m) {
             },
             "rank"_a, "effort"_a, "most_trials"_a, "ask"_a)
         .def(
-            "remove_stubborn",
-            [](Removal &self, const Removal::EffortTuple &effort, const std::vector<int> &spreads,
-               nb::object ask) {
+            "retry",
+            [](RemovalSearch &self, const spline::Effort &effort,
+               const std::vector<int> &redistributions, nb::object ask) {
                 ss::Interruption asking = interruption(ask);
                 nb::gil_scoped_release release;
-                return self.retry(effort, spreads, asking);
+                return self.retry(effort, redistributions, asking);
             },
-            "effort"_a, "spreads"_a, "ask"_a)
-        .def("curve", &ss::spline::RemovalSearch::curve)
-        .def("n_points", &ss::spline::RemovalSearch::n_points)
-        .def("from_polyline", &ss::spline::RemovalSearch::from_polyline)
-        .def("counts", &ss::spline::RemovalSearch::counts);
+            "effort"_a, "redistributions"_a, "ask"_a)
+        .def("curve", &RemovalSearch::curve)
+        .def("n_points", &RemovalSearch::n_points)
+        .def("from_polyline", &RemovalSearch::from_polyline)
+        .def("counts", &RemovalSearch::counts);
 }

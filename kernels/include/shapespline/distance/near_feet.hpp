@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "shapespline/curve/span_cursor.hpp"
+#include "shapespline/distance/newton.hpp"
 
 namespace shapespline {
 
-// Some Newton steps for every parameter, each taken only if it leads nearer. Where the second
-// derivative of the squared distance is not safely positive Gauss-Newton still descends.
+// Some Newton steps for every parameter, each taken only if it leads nearer.
 inline void near_feet(const Knots &knots, std::span<const Vec2> control_points,
                       std::span<const Vec2> points, int steps, std::span<double> parameters) {
-    constexpr double kSafely = 0.3;
     const std::vector<Vec2> unrolled = unroll(control_points, knots.n_coefficients());
     dispatch_degree(knots.degree, [&]<int Degree>() {
         SpanCursor<Degree> cursor(knots, unrolled);
@@ -23,7 +22,7 @@ inline void near_feet(const Knots &knots, std::span<const Vec2> control_points,
             for (int step = 0; step < steps; ++step) {
                 const Vec2 t = cursor.tangent();
                 const double speed_sq = norm_sq(t), newton = speed_sq + dot(r, cursor.bend());
-                const double hessian = newton > kSafely * speed_sq ? newton : speed_sq;
+                const double hessian = descent_curvature(speed_sq, newton);
                 if (!(hessian > 0.0)) break;
                 double trial = parameters[j] - dot(r, t) / hessian;
                 if (!knots.periodic) trial = std::clamp(trial, knots.begin(), knots.end());

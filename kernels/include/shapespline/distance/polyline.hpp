@@ -11,12 +11,16 @@
 
 namespace shapespline {
 
-// Squared distance from p to the segment a b; the end where a and b coincide.
-inline double segment_distance_sq(Vec2 p, Vec2 a, Vec2 b) {
+// The point of the segment a b that is nearest to p; the end where a and b coincide.
+inline Vec2 segment_foot(Vec2 p, Vec2 a, Vec2 b) {
     const Vec2 d = b - a;
     const double length_sq = norm_sq(d);
     const double s = length_sq > 0.0 ? std::clamp(dot(p - a, d) / length_sq, 0.0, 1.0) : 0.0;
-    return norm_sq(p - (a + s * d));
+    return a + s * d;
+}
+
+inline double segment_distance_sq(Vec2 p, Vec2 a, Vec2 b) {
+    return norm_sq(p - segment_foot(p, a, b));
 }
 
 class Polyline {

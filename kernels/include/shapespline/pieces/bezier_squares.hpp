@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "shapespline/base/pair.hpp"
+#include "shapespline/distance/newton.hpp"
 #include "shapespline/pieces/section.hpp"
 
 namespace shapespline::pieces {
@@ -151,7 +152,7 @@ class BezierSquares {
                 const Pair speed_sq = best.tx * best.tx + best.ty * best.ty;
                 const Pair newton = speed_sq + best.rx * (6.0 * c.x[3] * best.u + 2.0 * c.x[2]) +
                                     best.ry * (6.0 * c.y[3] * best.u + 2.0 * c.y[2]);
-                const Pair curvature = newton < 0.3 * speed_sq ? speed_sq : newton;
+                const Pair curvature = descent_curvature(speed_sq, newton);
                 const Pair slope = best.rx * best.tx + best.ry * best.ty;
                 const Pair u = best.u - slope / (curvature + both(1e-300));
                 const Look next = look(c, k, clamped(u, 0.0, 1.0));

@@ -33,7 +33,7 @@ class ExtensionSearch {
           candidates_(candidates),
           limits_{settings.tolerance, kRounds, most_strays(settings.smooth), !settings.smooth},
           largest_degree_(settings.largest_degree),
-          every_(static_cast<std::size_t>(settings.every)) {}
+          every_(static_cast<std::size_t>(settings.budget.every)) {}
 
     // Feasibility is nearly monotone: what starts later reaches at least as far. So the search
     // starts at the last answer, gallops and bisects: about 1.5 fits a candidate. A start that is

@@ -34,7 +34,7 @@ struct OutlineSearch {
             const int cost = ring.cost();
             smoother.run(true);
             // Points that made joints smooth may be too many now that they are.
-            if (settings.thorough && ring.cost() > cost) reducer.run();
+            if (settings.budget.thorough && ring.cost() > cost) reducer.run();
         }
         return ring.sections();
     }
@@ -227,14 +227,15 @@ class LaidOutOutline {
 
   private:
     std::vector<Index> choose(std::span<const Index> forced) const {
-        const double limit_sq = settings_.resolution * settings_.resolution;
+        const double limit_sq = settings_.budget.resolution * settings_.budget.resolution;
         std::vector<Index> chosen;
         const auto append = [&](Index at) {
             if (!chosen.empty()) split(chosen.back(), at, limit_sq, chosen);
             chosen.push_back(at);
         };
         for (Index i = 0; i < n_; ++i)
-            if (i % settings_.stride == 0 || forced[i] != 0 || (!closed_ && i == n_ - 1)) append(i);
+            if (i % settings_.budget.stride == 0 || forced[i] != 0 || (!closed_ && i == n_ - 1))
+                append(i);
         if (closed_) split(chosen.back(), n_, limit_sq, chosen);
         return chosen;
     }

@@ -24,9 +24,9 @@ class Reduction {
     // Moves until none helps any more, or the caller has had enough. What has failed is not tried
     // again, in a later run neither, unless a neighbour or its being a corner has changed.
     void run() {
-        for (int pass = 0; pass < settings_.passes; ++pass) {
+        for (int pass = 0; pass < settings_.budget.passes; ++pass) {
             bool changed = false;
-            for (int side = 1; side <= (settings_.thorough ? 2 : 1); ++side)
+            for (int side = 1; side <= (settings_.budget.thorough ? 2 : 1); ++side)
                 for (long i = 0; i < ring_.size();) {
                     if (interruption_.ends([&] { return n_points(); })) return;
                     const bool moved =
@@ -47,7 +47,7 @@ class Reduction {
     // have hardly any others.
     bool is_bold(int side) const {
         if (settings_.largest_degree == 1) return true;
-        return settings_.thorough && (side == 1 || !settings_.smooth);
+        return settings_.budget.thorough && (side == 1 || !settings_.smooth);
     }
 
     // One section of one point less.
@@ -60,7 +60,7 @@ class Reduction {
     bool merge(long i, int side) {
         if (!ring_.has(i + 1) || ring_.size() <= 2 || ring_.at(i + 1).barred()) return false;
         const int both = ring_.at(i).cost() + ring_.at(i + 1).cost();
-        const int most_saved = is_bold(side) ? 3 : settings_.thorough ? 2 : 1;
+        const int most_saved = is_bold(side) ? 3 : settings_.budget.thorough ? 2 : 1;
         for (int cost = std::max(both - most_saved, 1); cost < both; ++cost)
             if (attempt(i, 2, {cost}, side)) return true;
         return false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "shapespline/distance/newton.hpp"
 #include "shapespline/distance/polyline.hpp"
 #include "shapespline/pieces/section.hpp"
 
@@ -19,11 +20,10 @@ struct Feet {
 
 // Moves every foot point downhill by safeguarded Newton steps along the section.
 //
-// The Hessian of the squared distance is replaced by its Gauss-Newton part where it is smaller than
-// 0.3 of it, a step stays within one span width, and the best point met is kept: a distance never
-// rises. Done when a step would lower the squared distance by less than `enough_sq`. Local by
-// purpose: a global search would jump branches where the outline comes near itself.
-// `data` and `feet` begin at the datum `base`.
+// A step stays within one span width, and the best point met is kept: a distance never rises. Done
+// when a step would lower the squared distance by less than `enough_sq`. Local by purpose: a global
+// search would jump branches where the outline comes near itself. `data` and `feet` begin at the
+// datum `base`.
 inline void improve_feet(const SpanPolynomial *spans, int n_spans, const Vec2 *data,
                          std::span<const Index> active, Index base, int iterations,
                          double enough_sq, Feet feet) {
@@ -43,8 +43,8 @@ inline void improve_feet(const SpanPolynomial *spans, int n_spans, const Vec2 *d
             best_v = v;
             const Vec2 tangent = spans[s].velocity(v);
             const double speed_sq = norm_sq(tangent);
-            double curvature = speed_sq + dot(residual, spans[s].acceleration(v));
-            if (curvature < 0.3 * speed_sq) curvature = speed_sq;
+            const double curvature =
+                descent_curvature(speed_sq, speed_sq + dot(residual, spans[s].acceleration(v)));
             if (!(curvature > 0.0)) break;
             const double width = spans[s].width;
             const double slope = dot(residual, tangent);
@@ -151,11 +151,7 @@ inline Vec2 nearest_near(std::span<const Vec2> data, Vec2 p, Index c) {
     Vec2 nearest = data[c];
     double best = std::numeric_limits<double>::infinity();
     for (Index k = std::max<Index>(0, c - kWindow); k <= std::min(last, c + kWindow); ++k) {
-        const Vec2 a = data[k], along = data[k + 1] - a;
-        const double length_sq = norm_sq(along);
-        const double s =
-            length_sq > 0.0 ? std::clamp(dot(p - a, along) / length_sq, 0.0, 1.0) : 0.0;
-        const Vec2 q = a + s * along;
+        const Vec2 q = segment_foot(p, data[k], data[k + 1]);
         if (norm_sq(q - p) < best) {
             best = norm_sq(q - p);
             nearest = q;

@@ -5,17 +5,21 @@
 
 namespace shapespline::pieces {
 
+struct PiecesBudget {
+    Index stride;       // of candidate nodes
+    double resolution;  // their polyline passes the data within it
+    Index every;        // one candidate in so many is looked from
+    int passes;         // of the reduction
+    bool thorough;      // two neighbours on each side of a move, too, and bold moves with one
+};
+
 struct PiecesSettings {
     double tolerance;
     int largest_degree;   // 1 to 3
     bool smooth;          // joints that are no corners are tangent
     bool ends_fixed;      // an open outline begins and ends in its first and last datum
     double least_corner;  // radians: a corner that the fit turns less is given up
-    Index stride;         // of candidate nodes
-    double resolution;    // their polyline passes the data within it
-    Index every;          // one candidate in so many is looked from
-    int passes;           // of the reduction
-    bool thorough;        // two neighbours on each side of a move, too, and bold moves with one
+    PiecesBudget budget;
 };
 
 }  // namespace shapespline::pieces

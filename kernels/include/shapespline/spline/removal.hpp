@@ -24,18 +24,18 @@ template <int Degree>
 class KnotRemoval {
   public:
     // Ended early, it begins with the data polyline.
-    KnotRemoval(std::span<const Vec2> data, bool closed, const RemovalSettings &settings,
+    KnotRemoval(std::span<const Vec2> data, bool closed, const SplineSettings &settings,
                 Interruption &interruption)
         : settings_(settings),
           data_(arc_polyline(data, closed)),
-          search_(search_polyline(data_, kThinning * settings.tolerance,
+          search_(search_polyline(data_, kThinning * settings.fit.tolerance,
                                   data_.total / kSearchPoints)) {
         std::vector<Vec2> polyline = search_.points;
         if (closed) polyline.push_back(polyline.front());
         n_data_crossings_ = count_crossings(std::span<const Vec2>(polyline));
         if (!start_by_insertion(interruption)) {
             from_polyline_ = true;
-            state_ = polyline_spline<Degree>(search_, kPolylinePart * settings.tolerance);
+            state_ = polyline_spline<Degree>(search_, kPolylinePart * settings.fit.tolerance);
             measure_fairness();
         }
     }
@@ -191,7 +191,7 @@ class KnotRemoval {
         };
         if (settings_.start == 1) return {even(56), even(83)};
         if (settings_.start != 0) return {};
-        const double distance = kBendPart * settings_.tolerance;
+        const double distance = kBendPart * settings_.fit.tolerance;
         const std::vector<int> bends = chord_vertices(search_, distance, search_.total);
         return {bends.size() > kManyBends ? bends : even(24), even(37), even(56)};
     }
@@ -221,7 +221,7 @@ class KnotRemoval {
         const int first = state.closed ? state.span[0] : Degree;
         const int last = state.closed ? first + state.n_points() : state.n_points() - 1;
         return proof_.within(state, search_, data_, first, last,
-                             settings_.accept * settings_.tolerance);
+                             settings_.accept * settings_.fit.tolerance);
     }
 
     // Merges the spans beside knot r in a copy of the state; false where too few would be left.
@@ -317,7 +317,7 @@ class KnotRemoval {
         const int first = window_.origin + window_.first_sampled;
         const int last = window_.origin + window_.last_sampled;
         return proof_.within(candidate_, search_, data_, first, last,
-                             settings_.accept * settings_.tolerance);
+                             settings_.accept * settings_.fit.tolerance);
     }
 
     // Of the candidate, the window first. What the start could not keep must not become worse.
@@ -361,17 +361,17 @@ class KnotRemoval {
         Box box;
         for (const auto &curve : part.curves)
             for (const Vec2 p : curve.bezier().points) box.include(p);
-        const Vec2 margin{2.0 * settings_.tolerance, 2.0 * settings_.tolerance};
+        const Vec2 margin{2.0 * settings_.fit.tolerance, 2.0 * settings_.fit.tolerance};
         box.include(box.low - margin);
         box.include(box.high + margin);
         return crossings(all, box) - crossings(StateCurves<Degree>(state_), box);
     }
     int crossings(const StateCurves<Degree> &all, const Box &box) const {
-        const auto chords = flattened(all, kFlatness * settings_.tolerance, box);
+        const auto chords = flattened(all, kFlatness * settings_.fit.tolerance, box);
         return count_crossings(std::span<const Chord>(chords));
     }
 
-    RemovalSettings settings_;
+    SplineSettings settings_;
     ArcPolyline data_, search_;
     Proof<Degree> proof_;
     SplineState<Degree> state_, candidate_;

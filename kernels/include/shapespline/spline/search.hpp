@@ -13,27 +13,24 @@ namespace shapespline::spline {
 
 class RemovalSearch {
   public:
-    // (half power, iterations, intervals free, give up at) of each stage.
-    using Stages = std::vector<std::tuple<int, int, bool, double>>;
-    using EffortTuple = std::tuple<int, Stages>;
     // Intervals, control points (x, y alternating).
     using CurveArrays = std::tuple<std::vector<double>, std::vector<double>>;
 
     RemovalSearch(std::span<const Vec2> data, bool closed, int degree,
-                  const RemovalSettings &settings, Interruption &interruption)
+                  const SplineSettings &settings, Interruption &interruption)
         : data_(data.begin(), data.end()) {
         dispatch_degree(degree, [&]<int Degree>() {
             search_ = std::make_unique<Search<Degree>>(data_, closed, settings, interruption);
         });
     }
 
-    int remove_cheapest(const EffortTuple &rank, const EffortTuple &effort, long most,
+    int remove_cheapest(const Effort &rank, const Effort &effort, long most,
                         Interruption &interruption) {
-        return search_->remove_cheapest(unpack(rank), unpack(effort), most, interruption);
+        return search_->remove_cheapest(rank, effort, most, interruption);
     }
-    int retry(const EffortTuple &effort, const std::vector<int> &redistributions,
-                        Interruption &interruption) {
-        return search_->retry(unpack(effort), redistributions, interruption);
+    int retry(const Effort &effort, const std::vector<int> &redistributions,
+              Interruption &interruption) {
+        return search_->retry(effort, redistributions, interruption);
     }
     CurveArrays curve() const { return search_->curve(); }
     int n_points() const { return search_->n_points(); }
@@ -46,7 +43,7 @@ class RemovalSearch {
         virtual int remove_cheapest(const Effort &rank, const Effort &effort, long most,
                                     Interruption &interruption) = 0;
         virtual int retry(const Effort &effort, std::span<const int> redistributions,
-                                    Interruption &interruption) = 0;
+                          Interruption &interruption) = 0;
         virtual CurveArrays curve() const = 0;
         virtual int n_points() const = 0;
         virtual bool from_polyline() const = 0;
@@ -57,7 +54,7 @@ class RemovalSearch {
     struct Search : AnyDegree {
         KnotRemoval<Degree> removal;
 
-        Search(std::span<const Vec2> data, bool closed, const RemovalSettings &settings,
+        Search(std::span<const Vec2> data, bool closed, const SplineSettings &settings,
                Interruption &interruption)
             : removal(data, closed, settings, interruption) {}
         int remove_cheapest(const Effort &rank, const Effort &effort, long most,
@@ -65,7 +62,7 @@ class RemovalSearch {
             return removal.remove_cheapest(rank, effort, most, interruption);
         }
         int retry(const Effort &effort, std::span<const int> redistributions,
-                            Interruption &interruption) override {
+                  Interruption &interruption) override {
             return removal.retry(effort, redistributions, interruption);
         }
         int n_points() const override { return removal.state().n_points(); }
@@ -88,13 +85,6 @@ class RemovalSearch {
                     {"missed_crossings", c.missed_crossings}};
         }
     };
-
-    static Effort unpack(const EffortTuple &packed) {
-        Effort effort{std::get<0>(packed), {}};
-        for (const auto &[half_power, iterations, intervals_free, give_up] : std::get<1>(packed))
-            effort.stages.push_back({half_power, iterations, intervals_free, give_up});
-        return effort;
-    }
 
     std::vector<Vec2> data_;
     std::unique_ptr<AnyDegree> search_;

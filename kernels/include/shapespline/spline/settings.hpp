@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "shapespline/spline/pnorm.hpp"
 #include "shapespline/spline/fairness.hpp"
+#include "shapespline/spline/pnorm.hpp"
 
 namespace shapespline::spline {
 
@@ -13,12 +13,11 @@ struct Effort {
     std::vector<FitStage> stages;
 };
 
-struct RemovalSettings {
-    double tolerance;
-    bool keep_fair;
-    int start;  // which knots it begins with: 0 few, 1 more, 2 the data polyline
-    Fairness fairness;
+struct SplineSettings {
     FitLimits fit;
+    Fairness fairness;
+    bool keep_fair;
+    int start;      // which knots it begins with: 0 few, 1 more, 2 the data polyline
     double accept;  // part of the tolerance that an accepted curve keeps
     // In tolerances, after several failures in a row: the rank beyond which a removal is not tried,
     // and the distance of a failed one beyond which it gets no harder attempt.

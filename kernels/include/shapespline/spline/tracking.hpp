@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "shapespline/distance/newton.hpp"
 #include "shapespline/distance/polyline.hpp"
 #include "shapespline/curve/span_basis.hpp"
 #include "shapespline/spline/window.hpp"
@@ -240,8 +241,7 @@ class Tracking {
             if (step == n_steps) break;
             const Vec2 tangent = c.tangent(u);
             const double speed_sq = norm_sq(tangent);
-            double curvature = speed_sq + dot(r, c.second(u));
-            if (curvature < 0.3 * speed_sq) curvature = speed_sq;  // Gauss-Newton descends anyway
+            const double curvature = descent_curvature(speed_sq, speed_sq + dot(r, c.second(u)));
             if (!(curvature > 0.0)) break;
             const double move = std::clamp(-dot(r, tangent) / curvature, -2.0, 2.0);
             if (std::abs(move) < kEnough) break;

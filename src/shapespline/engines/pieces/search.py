@@ -100,22 +100,23 @@ class PiecesSolver(NamedTuple):
         joints[outline.held.after_stub] += AFTER_STUB
         joints[outline.held.before_stub] += BEFORE_STUB
         forced[joints > 0] = 1
-        degrees, counts, knots, coordinates = _kernels.fit_sections(
-            contour.points,
-            contour.closed,
-            joints,
-            forced,
-            outline.gentle,
-            max(min(search.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
-            search.resolution * tolerance,
-            search.every,
-            tolerance,
-            self.largest_degree,
-            self.smooth,
-            outline.held.ends,
-            RELEASE * LEAST_TURN,
-            search.passes,
-            search.thorough,
+        settings = _kernels.PiecesSettings(
+            tolerance=tolerance,
+            largest_degree=self.largest_degree,
+            smooth=self.smooth,
+            ends_fixed=outline.held.ends,
+            least_corner=RELEASE * LEAST_TURN,
+            budget=_kernels.PiecesBudget(
+                stride=max(min(search.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
+                resolution=search.resolution * tolerance,
+                every=search.every,
+                passes=search.passes,
+                thorough=search.thorough,
+            ),
+        )
+        degrees, counts, knots, coordinates = _kernels.fit_pieces(
+            _kernels.PiecesOutline(contour.points, contour.closed, joints, forced, outline.gentle),
+            settings,
             self.monitor.ends,
             observed,
             noise,
