@@ -7,6 +7,12 @@ environment=build/sanitize/environment
 python=$environment/bin/python
 packages() { "$1" -c 'import sysconfig; print(sysconfig.get_path("purelib"))'; }
 
+library() { "${CXX:-c++}" -print-file-name="$1"; }
+if ! test -f "$(library libasan.so)"; then
+    echo "make: '${CXX:-c++}' has no libasan.so: install g++ and say make sanitize CXX=g++" >&2
+    exit 1
+fi
+
 # An environment of its own, which borrows the dependencies: the line of a .pth file adds their
 # folder, whose own .pth files are not read, so that the package installed there stays out.
 test -x $python || "$base" -m venv --without-pip $environment
@@ -17,7 +23,6 @@ build/sanitize/build/kernel_tests
 
 # The interpreter itself knows nothing of the checks, so their library is loaded before it, and that
 # of C++ with it, whose exceptions it watches. Python keeps objects at its end: leaks are not asked.
-library() { "${CXX:-c++}" -print-file-name="$1"; }
 LD_PRELOAD="$(library libasan.so) $(library libstdc++.so)"
 export LD_PRELOAD ASAN_OPTIONS=detect_leaks=0:handle_abort=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 exec $python -m pytest -q -m "not slow" -p no:cacheprovider

@@ -1,11 +1,19 @@
-"""The folders of kernels/include/shapespline: who may include whom, and the namespaces."""
+"""The kernels: who may include whom, the namespaces, and how wide their border is."""
 
+from __future__ import annotations
+
+import ast
 import re
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
+from tests.support.places import ROOT
 
-KERNELS = Path(__file__).parents[1] / "kernels"
+if TYPE_CHECKING:
+    from pathlib import Path
+
+KERNELS = ROOT / "kernels"
+STUB = ROOT / "src" / "shapespline" / "_kernels.pyi"
 INCLUDE = KERNELS / "include"
 FOLDERS = INCLUDE / "shapespline"
 GROUND = ("base", "curve", "distance")
@@ -70,3 +78,18 @@ def test_only_the_bindings_know_nanobind():
     for path in KERNELS.rglob("*.[ch]pp"):
         if "nanobind" in path.read_text(encoding="utf-8"):
             assert path.parent.name == "bindings", path.name
+
+
+def test_nothing_crosses_the_border_with_more_than_eight_arguments():
+    functions = [
+        node
+        for node in ast.walk(ast.parse(STUB.read_text(encoding="utf-8")))
+        if isinstance(node, ast.FunctionDef)
+    ]
+    assert len(functions) > 30
+    for function in functions:
+        arguments = [*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs]
+        names = [argument.arg for argument in arguments if argument.arg != "self"]
+        assert len(names) <= 8, f"{function.name}: {', '.join(names)}"
+        assert function.args.vararg is None
+        assert function.args.kwarg is None
