@@ -1,15 +1,16 @@
 # Everything here sets itself up: an own virtual environment, the compiled kernel, nothing global.
 #   make demo    fit a real photograph, an icon and a measured outline; pictures and files
 #   make test    every check
+#   make sanitize    memory and undefined behaviour in the kernel
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 IMAGES := examples/data/images
 OUTLINES := examples/data/outlines
-KERNEL := $(wildcard kernels/*.[ch]pp kernels/include/shapespline/*.hpp)
+KERNEL := $(wildcard kernels/bindings/*.[ch]pp kernels/include/shapespline/*/*.hpp)
 
-.PHONY: demo test quick lint bench paper figures clean
+.PHONY: demo test quick sanitize lint bench paper figures clean
 .DEFAULT_GOAL := demo
 
 demo: $(READY)
@@ -26,6 +27,10 @@ test: lint
 
 quick: $(READY)
 	$(BIN)/python -m pytest -m "not slow"
+
+# The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: its native tests, the quick suite.
+sanitize: $(READY)
+	sh scripts/sanitize.sh $(BIN)/python
 
 lint: $(READY)
 	$(BIN)/ruff check .

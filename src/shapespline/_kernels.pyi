@@ -1,4 +1,4 @@
-# The compiled loops (kernels/bindings.cpp). They check and convert nothing: arrays must be
+# The compiled loops (kernels/bindings). They check and convert nothing: arrays must be
 # C-contiguous float64 (first: int64) of the shapes said here, outputs are written in place.
 # nc = len(knots) - degree - 1 unrolled coefficients, m distinct control points, n data points.
 from collections.abc import Callable
@@ -68,57 +68,78 @@ def accumulate_chord_distances(
     signed_sums: FloatArray,  # out (n,)
     unsigned_sums: FloatArray,  # out (n,)
 ) -> None: ...
-def cost(
-    knots: FloatArray,
-    degree: int,
-    periodic: bool,
-    control_points: FloatArray,  # (m, 2)
-    points: FloatArray,  # (n, 2)
-    parameters: FloatArray,
-    weights: FloatArray | None,
-    stray_weight: float,
-) -> float: ...
-def cost_and_gradient(
-    knots: FloatArray,
-    degree: int,
-    periodic: bool,
-    control_points: FloatArray,
-    points: FloatArray,
-    parameters: FloatArray,
-    weights: FloatArray | None,
-    held: int,  # parameters that stay: 0 none, 1 the ends, 2 all
-    control_ends_fixed: bool,
-    stray_weight: float,
-    control_gradient: FloatArray,  # out (m, 2)
-    parameter_gradient: FloatArray,  # out (n,)
-) -> float: ...
-def gauss_newton_diagonal(
-    knots: FloatArray,
-    degree: int,
-    periodic: bool,
-    control_points: FloatArray,
-    points: FloatArray,
-    parameters: FloatArray,
-    weights: FloatArray | None,
-    control_diagonal: FloatArray,  # out (m,)
-    parameter_diagonal: FloatArray,  # out (n,)
-) -> None: ...
-def damped_step(
-    knots: FloatArray,
-    degree: int,
-    periodic: bool,
-    control_points: FloatArray,
-    points: FloatArray,
-    parameters: FloatArray,
-    weights: FloatArray | None,
-    held: int,  # parameters that stay: 0 none, 1 the ends, 2 all
-    control_ends_fixed: bool,
-    stray_weight: float,
-    damping: float,
-    control_step: FloatArray,  # out (m, 2)
-    parameter_step: FloatArray,  # out (n,)
-    along: FloatArray | None = None,  # (n,), parts of the residuals along the tangent that count
-) -> tuple[bool, float, float, float]: ...  # solved, cost, predicted cost, gradient norm
+
+# Asked now and then with the number of points, 0 before there is a curve; true ends the search.
+_Ask = Callable[[int], bool]
+
+class DescentLimits:
+    def __init__(
+        self,
+        *,
+        max_iterations: int,
+        max_evaluations: int,
+        relative_decrease: float,
+        gradient_tolerance: float,
+        target_cost: float,  # minus infinity for none
+        start_damping: float,
+        patience: int,
+    ) -> None: ...
+
+class LeastSquares:
+    """What stays while control points (m, 2) and parameters (n,) move."""
+
+    def __init__(
+        self,
+        knots: FloatArray,
+        degree: int,
+        periodic: bool,
+        points: FloatArray,  # (n, 2)
+        weights: FloatArray | None,  # (n,)
+        held: int = 0,  # parameters that stay: 0 none, 1 the ends, 2 all
+        control_ends_fixed: bool = False,
+        stray_weight: float = 0.0,
+    ) -> None: ...
+    def cost(self, control_points: FloatArray, parameters: FloatArray) -> float: ...
+    def cost_and_gradient(
+        self,
+        control_points: FloatArray,
+        parameters: FloatArray,
+        control_gradient: FloatArray,  # out (m, 2)
+        parameter_gradient: FloatArray,  # out (n,)
+    ) -> float: ...
+    def gauss_newton_diagonal(
+        self,
+        control_points: FloatArray,
+        parameters: FloatArray,
+        control_diagonal: FloatArray,  # out (m,)
+        parameter_diagonal: FloatArray,  # out (n,)
+    ) -> None: ...
+    def damped_step(
+        self,
+        control_points: FloatArray,
+        parameters: FloatArray,
+        damping: float,
+        control_step: FloatArray,  # out (m, 2)
+        parameter_step: FloatArray,  # out (n,)
+        # (n,), parts of the residuals along the tangent that count
+        along: FloatArray | None = None,
+    ) -> tuple[bool, float, float, float]: ...  # solved, cost, predicted cost, gradient norm
+    def descend(
+        self,
+        control_points: FloatArray,  # in and out
+        parameters: FloatArray,  # in and out
+        limits: DescentLimits,
+        ask: _Ask,
+    ) -> tuple[
+        int, list[tuple[float, float, int, float, float]]
+    ]: ...  # why it ended; of each iteration cost, gradient norm, evaluations, step, seconds
+    def eliminated_equations(
+        self,
+        control_points: FloatArray,
+        parameters: FloatArray,
+        equations: FloatArray,  # out: the cost, the right side, the matrix; of chunks they add up
+    ) -> None: ...
+
 def near_feet(
     knots: FloatArray,
     degree: int,
@@ -127,17 +148,6 @@ def near_feet(
     points: FloatArray,
     steps: int,
     parameters: FloatArray,  # in and out (n,)
-) -> None: ...
-def eliminated_equations(
-    knots: FloatArray,
-    degree: int,
-    periodic: bool,
-    control_points: FloatArray,
-    points: FloatArray,
-    parameters: FloatArray,
-    weights: FloatArray | None,
-    stray_weight: float,
-    equations: FloatArray,  # out: the cost, the right side, the matrix; of chunks they add up
 ) -> None: ...
 def eliminated_size(n_points: int, degree: int, periodic: bool) -> int: ...
 def eliminated_step(
@@ -154,30 +164,41 @@ def corner_turns(
     length: float,
     turns: FloatArray,  # out (n,)
 ) -> None: ...
-
-# Asked now and then with the number of points, 0 before there is a curve; true ends the search.
-_Ask = Callable[[int], bool]
-
-def mean_distances(points: FloatArray, distances_sq: FloatArray) -> None: ...  # (n, 2), (n,)
+def centroid_distances_sq(points: FloatArray, distances_sq: FloatArray) -> None: ...  # (n, 2), (n,)
 def thinned(
     points: FloatArray, distance: float, longest: float, marked: IntArray | None
 ) -> list[int]: ...  # indices that stay
-def fit_sections(
-    points: FloatArray,  # (n, 2)
-    closed: bool,
-    joint: IntArray,  # (n,), sum of 1 corner, 2 pinned, 4 and 8 tangent to a stub
-    forced: IntArray,  # (n,), 0 or 1
-    gentle: IntArray,  # (n,), 0 or 1
-    stride: int,
-    resolution: float,
-    every: int,
-    tolerance: float,
-    largest_degree: int,  # 1 to 3
-    smooth: bool,
-    ends_fixed: bool,
-    least_corner: float,
-    passes: int,
-    thorough: bool,
+
+class PiecesBudget:
+    def __init__(
+        self, *, stride: int, resolution: float, every: int, passes: int, thorough: bool
+    ) -> None: ...
+
+class PiecesSettings:
+    def __init__(
+        self,
+        *,
+        tolerance: float,
+        largest_degree: int,  # 1 to 3
+        smooth: bool,
+        ends_fixed: bool,
+        least_corner: float,  # radians
+        budget: PiecesBudget,
+    ) -> None: ...
+
+class PiecesOutline:
+    def __init__(
+        self,
+        points: FloatArray,  # (n, 2)
+        closed: bool,
+        joint: IntArray,  # (n,), sum of 1 corner, 2 pinned, 4 and 8 tangent to an extension
+        forced: IntArray,  # (n,), 0 or 1
+        low_turn: IntArray,  # (n,), 0 or 1
+    ) -> None: ...
+
+def fit_pieces(
+    outline: PiecesOutline,
+    settings: PiecesSettings,
     ask: _Ask,
     observed: FloatArray | None = None,  # (n, 2): the sections are fitted to these in the end
     noise: float = 0.0,
@@ -185,9 +206,46 @@ def fit_sections(
     list[int], list[int], list[float], list[float]
 ]: ...  # of each section: degree, number of points, knots and coordinates end to end
 
-# Stages of a fit: half the power p, iterations, whether gaps are free, and the largest distance in
-# tolerances at which the next stage is still begun.
-_Effort = tuple[int, list[tuple[int, int, bool, float]]]  # free control points a side, stages
+class FitStage:
+    def __init__(
+        self,
+        half_power: int,  # of the p-norm
+        iterations: int,
+        intervals_free: bool,
+        give_up: float,  # the largest distance in tolerances to go on with
+    ) -> None: ...
+
+class RemovalEffort:
+    def __init__(self, n_side: int, stages: list[FitStage]) -> None: ...
+
+class FitLimits:
+    def __init__(
+        self,
+        *,
+        tolerance: float,
+        enough: float,  # tolerances
+        samples_per_span: int,
+        sample_weight: float,
+        least_interval: float,
+        largest_interval: float,
+        stagnation_limit: float,
+    ) -> None: ...
+
+class Fairness:
+    def __init__(self, *, interval_ratio: float, speed_ratio: float) -> None: ...
+
+class SplineSettings:
+    def __init__(
+        self,
+        *,
+        fit: FitLimits,
+        fairness: Fairness,
+        keep_fair: bool,
+        start: int,  # 0 few knots, 1 more, 2 the data polyline
+        accept: float,  # tolerances
+        worth_trying: float,
+        worth_retrying: float,
+    ) -> None: ...
 
 class RemovalSearch:
     def __init__(
@@ -195,27 +253,14 @@ class RemovalSearch:
         data: FloatArray,  # (n, 2)
         closed: bool,
         degree: int,
-        tolerance: float,
-        keep_rule: bool,
-        start: int,
-        gap_ratio: float,
-        speed_ratio: float,
-        least_gap: float,
-        largest_gap: float,
-        enough: float,
-        accept: float,
-        samples_per_span: int,
-        sample_weight: float,
-        hope: float,
-        worth_trying: float,
-        worth_insisting: float,
+        settings: SplineSettings,
         ask: _Ask,
     ) -> None: ...
     def remove_cheapest(
-        self, rank: _Effort, effort: _Effort, most_trials: int, ask: _Ask
+        self, rank: RemovalEffort, effort: RemovalEffort, most_trials: int, ask: _Ask
     ) -> int: ...
-    def remove_stubborn(self, effort: _Effort, spreads: list[int], ask: _Ask) -> int: ...
-    def curve(self) -> tuple[list[float], list[float]]: ...  # gaps, control points x, y in turn
+    def retry(self, effort: RemovalEffort, redistributions: list[int], ask: _Ask) -> int: ...
+    def curve(self) -> tuple[list[float], list[float]]: ...  # intervals; control points x, y, ...
     def n_points(self) -> int: ...
     def from_polyline(self) -> bool: ...
     def counts(self) -> dict[str, int]: ...

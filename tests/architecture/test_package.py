@@ -146,12 +146,6 @@ def test_every_module_says_what_it_is(name):
     assert ast.get_docstring(ast.parse(MODULES[name].read_text(encoding="utf-8")))
 
 
-def test_only_the_bindings_know_nanobind():
-    for path in (ROOT / "kernels").rglob("*.[ch]pp"):
-        text = path.read_text(encoding="utf-8")
-        assert ("nanobind" in text) == (path.stem == "bindings"), path.name
-
-
 # --- the public face ---------------------------------------------------------------------------
 
 

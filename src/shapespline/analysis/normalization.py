@@ -159,7 +159,7 @@ def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
     read like the outline, but for rounding.
     """
     away = np.empty(len(points))
-    _kernels.mean_distances(points, away)
+    _kernels.centroid_distances_sq(points, away)
     farthest = away.max() if closed else max(away[0], away[-1])
     starts = np.flatnonzero(away == farthest).tolist()
     last = len(points) - 1

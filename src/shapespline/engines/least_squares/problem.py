@@ -81,6 +81,10 @@ class CurveProblem:
         self.ends = ends
         self.stray_weight = stray_weight
         self._split = 2 * template.n_control_points
+        held = 0 if ends == "free" else _HOLD_ENDS
+        self.kernel = _kernels.LeastSquares(
+            *self._knots, points, weights, held, ends == "interpolated", stray_weight
+        )
 
     def pack(self, control_points: FloatArray, parameters: FloatArray) -> FloatArray:
         """Control points (m, 2) and parameters (n,) as one vector."""
@@ -98,29 +102,13 @@ class CurveProblem:
     def cost(self, x: FloatArray) -> float:
         """Half the weighted sum of squared residuals."""
         control_points, parameters = self.unpack(x)
-        return _kernels.cost(
-            *self._knots,
-            control_points,
-            self.points,
-            parameters,
-            self.weights,
-            self.stray_weight,
-        )
+        return self.kernel.cost(control_points, parameters)
 
     def cost_and_gradient(self, x: FloatArray) -> tuple[float, FloatArray]:
         """Cost and its gradient; zero for what is fixed."""
         control_points, parameters = self.unpack(x)
         gradient = np.empty_like(x)
-        cost = _kernels.cost_and_gradient(
-            *self._knots,
-            control_points,
-            self.points,
-            parameters,
-            self.weights,
-            *self._fixed,
-            self.stray_weight,
-            *self.unpack(gradient),
-        )
+        cost = self.kernel.cost_and_gradient(control_points, parameters, *self.unpack(gradient))
         return cost, gradient
 
     def scale(self, x: FloatArray) -> FloatArray:
@@ -132,14 +120,8 @@ class CurveProblem:
         diagonal = np.empty_like(x)
         of_control_points = np.empty(len(control_points))
         of_parameters = diagonal[self._split :]
-        _kernels.gauss_newton_diagonal(
-            *self._knots,
-            control_points,
-            self.points,
-            parameters,
-            self.weights,
-            of_control_points,
-            of_parameters,
+        self.kernel.gauss_newton_diagonal(
+            control_points, parameters, of_control_points, of_parameters
         )
         for block in (of_control_points, of_parameters):
             largest = float(block.max())
@@ -155,16 +137,8 @@ class CurveProblem:
         """
         control_points, parameters = self.unpack(x)
         step = np.empty_like(x)
-        solved, cost, predicted, gradient_norm = _kernels.damped_step(
-            *self._knots,
-            control_points,
-            self.points,
-            parameters,
-            self.weights,
-            *self._fixed,
-            self.stray_weight,
-            damping,
-            *self.unpack(step),
+        solved, cost, predicted, gradient_norm = self.kernel.damped_step(
+            control_points, parameters, damping, *self.unpack(step)
         )
         if not solved:
             return None
@@ -183,17 +157,8 @@ class CurveProblem:
         """
         control_points, parameters = self.unpack(x)
         step = np.zeros_like(x)
-        solved, cost, predicted, gradient_norm = _kernels.damped_step(
-            *self._knots,
-            control_points,
-            self.points,
-            parameters,
-            self.weights,
-            *self._fixed,
-            self.stray_weight,
-            damping,
-            *self.unpack(step),
-            self._along(x, metric),
+        solved, cost, predicted, gradient_norm = self.kernel.damped_step(
+            control_points, parameters, damping, *self.unpack(step), self._along(x, metric)
         )
         if not solved:
             return None
@@ -240,25 +205,11 @@ class CurveProblem:
         a relative 1e-9, which the others do not notice.
         """
         control_points, unused = np.empty_like(guess), np.empty_like(parameters)
-        solved, *_ = _kernels.damped_step(
-            *self._knots,
-            guess,
-            self.points,
-            parameters,
-            self.weights,
-            _HOLD_ALL,
-            self.ends == "interpolated",
-            0.0,
-            1e-9,
-            control_points,
-            unused,
+        held = _kernels.LeastSquares(
+            *self._knots, self.points, self.weights, _HOLD_ALL, self.ends == "interpolated"
         )
+        solved, *_ = held.damped_step(guess, parameters, 1e-9, control_points, unused)
         return guess + control_points if solved else guess
-
-    @property
-    def _fixed(self) -> tuple[int, bool]:
-        """Which parameters are held, and whether the end control points are."""
-        return _HOLD_ENDS if self.ends != "free" else 0, self.ends == "interpolated"
 
     @property
     def _knots(self) -> tuple[FloatArray, int, bool]:

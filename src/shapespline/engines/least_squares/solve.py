@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
+from shapespline.engines.least_squares.descent import descend, go_on
 from shapespline.engines.least_squares.problem import CurveProblem
 from shapespline.errors import InvalidInputError
 from shapespline.geometry import nondecreasing, two_sided_distance
@@ -22,12 +23,13 @@ from shapespline.solvers import (
     Result,
     Solver,
     make_solver,
-    minimize,
 )
 from shapespline.validation import float_array
 from shapespline.values import BSplineCurve, Contour
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from shapespline.monitor import Callback
     from shapespline.typing import ArrayLike, FloatArray
 
@@ -75,6 +77,7 @@ def minimized(
     stray_weight: float = 0.0,
     limits: Limits = DEFAULT_LIMITS,
     callback: Callback | None = None,
+    ask: Callable[[int], bool] = go_on,
 ) -> Minimized:
     """The curve of a start's knots that a solver ends with; arguments as `optimize` takes them.
 
@@ -99,12 +102,13 @@ def minimized(
     first = spline.control_points - middle
     if ends == "interpolated":
         first[[0, -1]] = problem.points[[0, -1]]
-    result = minimize(
+    result = descend(
         solver,
         problem,
         problem.pack(first, parameters_in_order(start, contour)),
         limits=limits,
         callback=None if callback is None else lambda record: callback(as_iteration(record, n)),
+        ask=ask,
     )
     fitted = problem.curve(result.x)
     control_points = fitted.control_points + middle

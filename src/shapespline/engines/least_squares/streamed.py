@@ -179,9 +179,8 @@ def _equations(
     """Cost, right side and matrix of the normal equations, one after another."""
     form, control_points = (spline.degree, spline.periodic), spline.control_points
     equations = np.empty(_kernels.eliminated_size(len(control_points), *form))
-    _kernels.eliminated_equations(
-        spline.knots, *form, control_points, points, parameters, weights, stray_weight, equations
-    )
+    problem = _kernels.LeastSquares(spline.knots, *form, points, weights, stray_weight=stray_weight)
+    problem.eliminated_equations(control_points, parameters, equations)
     return equations
 
 

@@ -100,22 +100,25 @@ class PiecesSolver(NamedTuple):
         joints[outline.constraints.after_stub] += AFTER_STUB
         joints[outline.constraints.before_stub] += BEFORE_STUB
         forced[joints > 0] = 1
-        degrees, counts, knots, coordinates = _kernels.fit_sections(
-            contour.points,
-            contour.closed,
-            joints,
-            forced,
-            outline.low_turn,
-            max(min(budget.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
-            budget.resolution * tolerance,
-            budget.every,
-            tolerance,
-            self.largest_degree,
-            self.smooth,
-            outline.constraints.ends,
-            RELEASE * LEAST_TURN,
-            budget.passes,
-            budget.thorough,
+        settings = _kernels.PiecesSettings(
+            tolerance=tolerance,
+            largest_degree=self.largest_degree,
+            smooth=self.smooth,
+            ends_fixed=outline.constraints.ends,
+            least_corner=RELEASE * LEAST_TURN,
+            budget=_kernels.PiecesBudget(
+                stride=max(min(budget.stride, n // LEAST_CANDIDATES), n // MOST_CANDIDATES, 1),
+                resolution=budget.resolution * tolerance,
+                every=budget.every,
+                passes=budget.passes,
+                thorough=budget.thorough,
+            ),
+        )
+        degrees, counts, knots, coordinates = _kernels.fit_pieces(
+            _kernels.PiecesOutline(
+                contour.points, contour.closed, joints, forced, outline.low_turn
+            ),
+            settings,
             self.monitor.ends,
             observed,
             noise,

@@ -2,8 +2,9 @@
 
 One B-spline with many knots loses one knot after another. Each removal is refitted in a window with
 control points, parameters and knot gaps free, in a rising p-norm of the distances in both
-directions, and taken only if both are proven to keep the tolerance. The loops are in the kernel
-(removal.hpp); here are the limits, the levels of effort and the check of the exported curve.
+directions, and taken only if both are proven to keep the tolerance. The loops are in
+kernels/include/shapespline/spline; here are the limits, the levels of effort and the check of the
+exported curve.
 """
 
 from __future__ import annotations
@@ -43,24 +44,29 @@ ATTEMPTS = 5
 # Removals tried in the first stage; only outlines far rougher than the tolerance need so many.
 MOST_TRIALS = 20_000
 
-# Stages as (half of p, iterations, gaps free, largest distance in tolerances to go on with), after
-# the number of free control points on each side.
-_RANK = (3, [(1, 1, False, inf)])
-_REMOVE_QUICKLY = (4, [(1, 3, False, 6.0), (3, 8, True, 2.0), (6, 15, True, inf)])
-_REMOVE = (4, [(1, 6, False, 6.0), (3, 8, True, 2.5), (6, 25, True, inf)])
-_RETRY = (7, [(1, 4, False, inf), (3, 12, True, 2.6), (6, 25, True, 1.3), (10, 30, True, inf)])
+
+def _effort(n_side: int, *stages: tuple[int, int, bool, float]) -> _kernels.RemovalEffort:
+    """Free control points on each side; half of p, iterations, intervals free, when to give up."""
+    return _kernels.RemovalEffort(n_side, [_kernels.FitStage(*stage) for stage in stages])
+
+
+_RANK = _effort(3, (1, 1, False, inf))
+_REMOVE_QUICKLY = _effort(4, (1, 3, False, 6.0), (3, 8, True, 2.0), (6, 15, True, inf))
+_REMOVE = _effort(4, (1, 6, False, 6.0), (3, 8, True, 2.5), (6, 25, True, inf))
+_RETRY = _effort(7, (1, 4, False, inf), (3, 12, True, 2.6), (6, 25, True, 1.3), (10, 30, True, inf))
 
 
 class _Level(NamedTuple):
-    """What an effort spends: fits, passes over what is left, how holes are spread, patience.
+    """What an effort spends: fits, passes over what is left and how they redistribute intervals.
 
-    After twelve failures in a row no removal is tried whose rank is beyond ``worth_trying``
-    tolerances, and none insisted on that failed by more than ``worth_retrying``.
+    A stage is left that would need ``stagnation_limit`` times its present rate. After twelve
+    failures in a row no removal is tried whose rank is beyond ``worth_trying`` tolerances, and none
+    retried that failed by more than ``worth_retrying``.
     """
 
-    remove: tuple[int, list[tuple[int, int, bool, float]]]
+    remove: _kernels.RemovalEffort
     passes: int
-    spreads: list[int]
+    redistributions: list[int]
     stagnation_limit: float
     worth_trying: float = inf
     worth_retrying: float = inf
@@ -178,25 +184,25 @@ def _search(
     least_gap, largest_gap = (
         (least, GAP_RATIO * least) if fair else (unit * gap for gap in FREE_GAPS)
     )
+    settings = _kernels.SplineSettings(
+        fit=_kernels.FitLimits(
+            tolerance=scaled,
+            enough=ENOUGH,
+            samples_per_span=SAMPLES_PER_SPAN,
+            sample_weight=SAMPLE_WEIGHT,
+            least_interval=least_gap,
+            largest_interval=largest_gap,
+            stagnation_limit=level.stagnation_limit,
+        ),
+        fairness=_kernels.Fairness(interval_ratio=GAP_RATIO, speed_ratio=SPEED_RATIO),
+        keep_fair=fair,
+        start=start,
+        accept=ACCEPT,
+        worth_trying=level.worth_trying,
+        worth_retrying=level.worth_retrying,
+    )
     search = _kernels.RemovalSearch(
-        normalized.contour.points,
-        normalized.contour.closed,
-        degree,
-        scaled,
-        fair,
-        start,
-        GAP_RATIO,
-        SPEED_RATIO,
-        least_gap,
-        largest_gap,
-        ENOUGH,
-        ACCEPT,
-        SAMPLES_PER_SPAN,
-        SAMPLE_WEIGHT,
-        level.stagnation_limit,
-        level.worth_trying,
-        level.worth_retrying,
-        monitor.ends,
+        normalized.contour.points, normalized.contour.closed, degree, settings, monitor.ends
     )
     if monitor.stage(search.n_points()):
         return search
@@ -204,7 +210,7 @@ def _search(
     for _ in range(level.passes):
         if monitor.stage(search.n_points()):
             break
-        if search.remove_stubborn(_RETRY, level.spreads, monitor.ends) == 0:
+        if search.retry(_RETRY, level.redistributions, monitor.ends) == 0:
             break
     return search
 

@@ -26,20 +26,18 @@ EPS = reference.EPS
 def kernel_step(case, damping, *, weighted=True, held=0, ends=False, stray_weight=0.0):
     curve = case.curve
     control_step, parameter_step = np.empty((case.m, 2)), np.empty(case.n)
-    result = _kernels.damped_step(
+    problem = _kernels.LeastSquares(
         curve.knots,
         curve.degree,
         curve.periodic,
-        curve.control_points,
         case.points,
-        case.parameters,
         case.weights if weighted else None,
         held,
         ends,
         stray_weight,
-        damping,
-        control_step,
-        parameter_step,
+    )
+    result = problem.damped_step(
+        curve.control_points, case.parameters, damping, control_step, parameter_step
     )
     return *result, control_step, parameter_step
 

@@ -47,9 +47,8 @@ def test_the_step_is_that_of_the_dense_equations(degree, periodic):
     parts = []
     for part in (slice(0, 40), slice(40, n)):  # what chunks say adds up
         parts.append(np.empty(size))
-        _kernels.eliminated_equations(
-            knots, *form, control_points, points[part], parameters[part], None, 0.0, parts[-1]
-        )
+        problem = _kernels.LeastSquares(knots, *form, points[part], None)
+        problem.eliminated_equations(control_points, parameters[part], parts[-1])
     step = np.empty((m, 2))
     solved, decrease, norm = _kernels.eliminated_step(*form, parts[0] + parts[1], damping, step)
     assert solved

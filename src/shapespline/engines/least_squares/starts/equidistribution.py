@@ -12,11 +12,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis import chord_to_point
+from shapespline.engines.least_squares.descent import descend, go_on
 from shapespline.engines.least_squares.problem import CurveProblem
-from shapespline.solvers import LevenbergMarquardt, Limits, minimize
+from shapespline.solvers import LevenbergMarquardt, Limits, Stop
 from shapespline.values import BSplineCurve, clamped_knots, greville_abscissae, periodic_knots
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from shapespline.typing import FloatArray
     from shapespline.values import Contour
 
@@ -51,6 +54,7 @@ def balanced_start(
     rounds: int = ROUNDS,
     *,
     ends: str = "interpolated",
+    ask: Callable[[int], bool] = go_on,
 ) -> Balanced:
     """The best of a few short fits, each balanced by the errors of the one before.
 
@@ -66,6 +70,8 @@ def balanced_start(
         Times that the parameters are spread again.
     ends : {"interpolated", "fitted"}
         Of an open contour; see `CurveProblem`.
+    ask : callable
+        Asked now and then whether to end with what there is, see `descend`.
     """
     middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
     periodic = contour.closed
@@ -83,11 +89,13 @@ def balanced_start(
             stray_weight=STRAY_WEIGHT,
         )
         control_points = problem.control_points_for(parameters, guess)
-        result = minimize(
-            solver, problem, problem.pack(control_points, parameters), limits=ROUND_LIMITS
+        result = descend(
+            solver, problem, problem.pack(control_points, parameters), limits=ROUND_LIMITS, ask=ask
         )
         if result.cost < best_cost:
             best_cost, best = result.cost, (problem, result.x)
+        if result.stop is Stop.CANCELLED:
+            break
         if round_ < rounds:
             parameters = _balanced_by_error(problem, result.x)
     problem, x = best

@@ -1,0 +1,72 @@
+// Curves: basis functions, points, Bezier pieces, chords.
+#include "arrays.hpp"
+#include "shapespline/curve/bezier.hpp"
+#include "shapespline/curve/bspline.hpp"
+#include "shapespline/curve/flatten.hpp"
+
+using namespace nb::literals;
+
+void bind_curve(nb::module_ &m) {
+    m.def(
+        "basis_functions",
+        [](In1 knots, int degree, bool periodic, In1 parameters, Out2 values, OutIndices first) {
+            nb::gil_scoped_release release;
+            ss::basis_functions(knot_vector(knots, degree, periodic), numbers(parameters),
+                                values.data(), first.data());
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "parameters"_a.noconvert(),
+        "values"_a.noconvert(), "first"_a.noconvert());
+
+    m.def(
+        "evaluate",
+        [](In1 knots, int degree, bool periodic, In2 coefficients, In1 parameters, OutPoints out) {
+            nb::gil_scoped_release release;
+            ss::evaluate(knot_vector(knots, degree, periodic), vectors(coefficients),
+                         numbers(parameters), vectors(out).data());
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "coefficients"_a.noconvert(),
+        "parameters"_a.noconvert(), "out"_a.noconvert());
+
+    m.def(
+        "bezier_pieces",
+        [](In1 knots, int degree, In2 coefficients, OutPoints points, Out1 breakpoints) {
+            nb::gil_scoped_release release;
+            ss::dispatch_degree(degree, [&]<int Degree>() {
+                std::size_t k = 0;
+                for (const auto &piece : ss::bezier_pieces<Degree>(
+                         knot_vector(knots, degree, false), vectors(coefficients))) {
+                    std::copy_n(piece.points.begin(), Degree + 1,
+                                vectors(points).begin() + k * (Degree + 1));
+                    breakpoints.data()[k] = piece.begin;
+                    breakpoints.data()[++k] = piece.end;
+                }
+            });
+        },
+        "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "points"_a.noconvert(),
+        "breakpoints"_a.noconvert());
+
+    m.def(
+        "steps_wanted",
+        [](In2 beziers, int degree, double distance, double longest, Out1 wanted) {
+            nb::gil_scoped_release release;
+            ss::dispatch_degree(degree, [&]<int Degree>() {
+                for (std::size_t s = 0; s < wanted.shape(0); ++s)
+                    wanted.data()[s] = ss::steps_wanted<Degree>(
+                        vectors(beziers).subspan(s * (Degree + 1), Degree + 1), distance, longest);
+            });
+        },
+        "beziers"_a.noconvert(), "degree"_a, "distance"_a, "longest"_a, "wanted"_a.noconvert());
+
+    m.def(
+        "chord_points",
+        [](In2 beziers, int degree, In1 breakpoints, InIndices counts, OutPoints points,
+           Out1 parameters) {
+            nb::gil_scoped_release release;
+            ss::dispatch_degree(degree, [&]<int Degree>() {
+                ss::chord_points<Degree>(vectors(beziers), breakpoints.data(), indices(counts),
+                                         vectors(points).data(), parameters.data());
+            });
+        },
+        "beziers"_a.noconvert(), "degree"_a, "breakpoints"_a.noconvert(), "counts"_a.noconvert(),
+        "points"_a.noconvert(), "parameters"_a.noconvert());
+}

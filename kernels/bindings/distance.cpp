@@ -1,0 +1,73 @@
+// Distances between curves, points and polylines.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <tuple>
+
+#include "arrays.hpp"
+#include "shapespline/distance/crossings.hpp"
+#include "shapespline/distance/deviation.hpp"
+#include "shapespline/distance/near_feet.hpp"
+#include "shapespline/distance/nearest.hpp"
+#include "shapespline/distance/thinning.hpp"
+
+using namespace nb::literals;
+
+void bind_distance(nb::module_ &m) {
+    m.def(
+        "nearest_on_curve",
+        [](In1 knots, int degree, In2 coefficients, In2 queries, Out1 parameters,
+           Out1 distances_sq) {
+            nb::gil_scoped_release release;
+            ss::nearest_on_curve(knot_vector(knots, degree, false), vectors(coefficients),
+                                 vectors(queries), parameters.data(), distances_sq.data());
+        },
+        "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "queries"_a.noconvert(),
+        "parameters"_a.noconvert(), "distances_sq"_a.noconvert());
+
+    m.def(
+        "curve_deviation",
+        [](In1 knots, int degree, In2 coefficients, In2 vertices, double relative_gap,
+           double floor) {
+            nb::gil_scoped_release release;
+            const auto d = ss::curve_deviation(knot_vector(knots, degree, false),
+                                               vectors(coefficients), vectors(vertices),
+                                               relative_gap, floor);
+            return std::make_tuple(d.lower, d.upper, d.parameter);
+        },
+        "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "vertices"_a.noconvert(),
+        "relative_gap"_a, "floor"_a);
+
+    m.def(
+        "near_feet",
+        [](In1 knots, int degree, bool periodic, In2 control_points, In2 points, int steps,
+           Out1 parameters) {
+            nb::gil_scoped_release release;
+            ss::near_feet(knot_vector(knots, degree, periodic), vectors(control_points),
+                          vectors(points), steps, numbers(parameters));
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "control_points"_a.noconvert(),
+        "points"_a.noconvert(), "steps"_a, "parameters"_a.noconvert());
+
+    m.def(
+        "thinned",
+        [](In2 points, double distance, double longest, std::optional<InIndices> marked) {
+            std::vector<std::int64_t> kept;
+            {
+                nb::gil_scoped_release release;
+                kept = ss::thinned(vectors(points), distance, longest,
+                                   marked ? indices(*marked) : std::span<const std::int64_t>{});
+            }
+            return kept;
+        },
+        "points"_a.noconvert(), "distance"_a, "longest"_a, "marked"_a.none().noconvert());
+
+    m.def(
+        "count_crossings",
+        [](In2 vertices) {
+            nb::gil_scoped_release release;
+            return ss::count_crossings(std::span<const ss::Vec2>(vectors(vertices)));
+        },
+        "vertices"_a.noconvert());
+}

@@ -1,0 +1,82 @@
+// The data of a least-squares fit, and the stray residuals that hold the curve between them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "shapespline/curve/bspline.hpp"
+
+namespace shapespline::least_squares {
+
+// Which location parameters stay where they are.
+enum class Held : int { none = 0, ends = 1, all = 2 };
+
+struct Samples {
+    std::span<const Vec2> points;
+    std::span<const double> parameters;
+    const double *weights;  // null for all ones
+    Held held = Held::none;
+    bool control_ends_fixed = false;  // the first and last control point do not move
+    double stray_weight = 0.0;        // of the stray residuals; 0 for the plain problem
+    // The part in [0, 1] of each squared residual along the tangent that a step counts, where the
+    // parameters are found by projection and not by the step; null where they are eliminated.
+    const double *along = nullptr;
+
+    std::size_t size() const { return points.size(); }
+    double weight(std::size_t j) const { return weights ? weights[j] : 1.0; }
+    bool is_held(std::size_t j) const {
+        return held == Held::all || (held == Held::ends && (j == 0 || j + 1 == size()));
+    }
+};
+
+// Stray residuals hold the curve where it passes between two data points on a long way of its own,
+// which the residuals of the data cannot see: bumps beside corners, loops in spans that lost their
+// points. Where neighbours' parameters are more than kFreeGap of a span apart, the curve between
+// them is compared with the segment between the points, at matching fractions (a Frechet distance).
+// The weight grows smoothly from zero, so that points may still drift apart.
+inline constexpr double kFreeGap = 0.125;
+inline constexpr double kStraySamples = 8.0;  // a span
+
+struct Stray {
+    std::size_t before, after;  // the data points it lies between
+    double fraction;            // of the way from one to the other
+    double parameter;
+    Vec2 target;
+    double weight;
+    double weight_slope;  // derivative of the weight with respect to the gap
+};
+
+template <class Visit>
+void for_each_stray(const Knots &knots, const Samples &samples, Visit &&visit) {
+    if (samples.stray_weight == 0.0) return;
+    std::size_t n_spans = 0;
+    for (std::size_t k = knots.degree; k < knots.n_coefficients(); ++k)
+        n_spans += knots.values[k] < knots.values[k + 1];
+    const double span = knots.period() / static_cast<double>(n_spans);
+    const std::size_t n = samples.size();
+    for (std::size_t j = 0; j + 1 < n + (knots.periodic ? 1 : 0); ++j) {
+        const bool closing = j + 1 == n;
+        const double begin = samples.parameters[j];
+        const double end = closing ? samples.parameters[0] + knots.period()
+                                   : samples.parameters[j + 1];
+        const double excess = (end - begin) / (kFreeGap * span) - 1.0;
+        if (!(excess > 0.0)) continue;
+        const Vec2 a = samples.points[j], b = samples.points[closing ? 0 : j + 1];
+        // No more than the whole domain deserves, however far a parameter may have flown.
+        const double n_samples =
+            kStraySamples *
+            std::clamp(std::ceil((end - begin) / span), 1.0, static_cast<double>(n_spans));
+        const double unit = samples.stray_weight / n_samples;
+        const double slope = 2.0 * unit * excess / (kFreeGap * span);
+        for (double i = 1.0; i <= n_samples; ++i) {
+            const double s = i / (n_samples + 1.0);
+            visit(Stray{j, closing ? 0 : j + 1, s, begin + s * (end - begin), a + s * (b - a),
+                        unit * excess * excess, slope});
+        }
+    }
+}
+
+}  // namespace shapespline::least_squares

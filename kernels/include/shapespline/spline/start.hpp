@@ -1,0 +1,162 @@
+// The spline that removal begins with: few knots by chord length, more where it is too far away.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "shapespline/base/interruption.hpp"
+#include "shapespline/spline/pnorm.hpp"
+#include "shapespline/spline/search_polyline.hpp"
+
+namespace shapespline::spline {
+
+// Knots at given data points, repeated as often as they are named; control points at their Greville
+// abscissae on the polyline through these points. Indices do not decrease; an open curve's begin
+// with 0 and end with n - 1, a closed curve's begin with 0.
+template <int Degree>
+SplineState<Degree> chord_length_spline(const ArcPolyline &data, std::span<const int> at) {
+    const int n = data.size();
+    const bool closed = data.closed;
+    const std::vector<double> &length = data.at;
+    const double total = data.total;
+
+    SplineState<Degree> state;
+    state.closed = closed;
+    std::vector<double> knots;
+    if (!closed) knots.assign(Degree, 0.0);
+    for (const int j : at) knots.push_back(length[j]);
+    if (!closed) knots.insert(knots.end(), Degree, total);
+    const int m = closed ? static_cast<int>(knots.size())
+                         : static_cast<int>(knots.size()) - Degree - 1;
+    const auto knot = [&](int i) {
+        return closed ? knots[wrap(i, m)] + floor_div(i, m) * total : knots[i];
+    };
+    const int n_intervals = closed ? m : m + Degree;
+    for (int k = 0; k < n_intervals; ++k) {
+        state.intervals.push_back(knot(k + 1) - knot(k));
+        state.knot_ids.push_back(k);
+    }
+    for (int i = 0; i < m; ++i) {
+        double greville = 0.0;
+        for (int q = 1; q <= Degree; ++q) greville += knot(i + q) / Degree;
+        if (closed) greville -= std::floor(greville / total) * total;
+        const auto next = std::upper_bound(at.begin(), at.end(), greville, [&](double g, int j) {
+            return g < length[j];
+        });
+        const std::size_t last = closed ? at.size() - 1 : at.size() - 2;
+        const std::size_t i0 = std::clamp<std::size_t>(next - at.begin(), 1, last + 1) - 1;
+        const int j0 = at[i0], j1 = i0 + 1 < at.size() ? at[i0 + 1] : n;
+        const double step = data.arc(j1) - data.arc(j0);
+        const double s = step > 0.0 ? std::clamp((greville - data.arc(j0)) / step, 0.0, 1.0) : 0.0;
+        state.points.push_back(data.point(j0) + s * (data.point(j1) - data.point(j0)));
+    }
+    int k = closed ? -1 : Degree;
+    for (int j = 0; j < n; ++j) {
+        while (k + 1 < (closed ? 2 * m : m) && knot(k + 1) <= length[j]) ++k;
+        state.span.push_back(k);
+        const double width = knot(k + 1) - knot(k);
+        state.local_parameter.push_back(
+            width > 0.0 ? std::clamp(2.0 * (length[j] - knot(k)) / width - 1.0, -1.0, 1.0) : 1.0);
+    }
+    if (!closed) {
+        state.points.front() = data.points.front();
+        state.points.back() = data.points.back();
+    }
+    state.normalize();
+    return state;
+}
+
+// So many data points, all if there are fewer, evenly spread by their number.
+inline std::vector<int> even_points(const ArcPolyline &data, int count) {
+    const int n = data.size();
+    count = std::min(n, count);
+    std::vector<int> at;
+    for (int i = 0; i < count; ++i)
+        at.push_back(static_cast<int>(static_cast<long>(i) * (data.closed ? n : n - 1) /
+                                      (data.closed ? count : count - 1)));
+    return at;
+}
+
+// A polyline within a distance of the data as a spline: its vertices are knots of full
+// multiplicity.
+template <int Degree>
+SplineState<Degree> polyline_spline(const ArcPolyline &data, double distance) {
+    std::vector<int> at;
+    for (const int j : chord_vertices(data, distance, data.total)) {
+        const bool end = !data.closed && (j == 0 || j + 1 == data.size());
+        at.insert(at.end(), end ? 1 : Degree, j);
+    }
+    return chord_length_spline<Degree>(data, at);
+}
+
+template <int Degree>
+class KnotInsertion {
+  public:
+    KnotInsertion(std::span<const Vec2> data, const FitLimits &limits)
+        : data_(data), limits_(limits) {}
+
+    // Fits all of the curve and halves the worse half of the spans that are farther than `enough`
+    // tolerances away, until none is; false when that does not come about.
+    bool run(SplineState<Degree> &state, double enough, int most_points,
+             Interruption &interruption) {
+        limits_.enough = enough;
+        int next_id = 1 + *std::max_element(state.knot_ids.begin(), state.knot_ids.end());
+        const FitStage stage{1, kIterations, false, std::numeric_limits<double>::infinity()};
+        for (int round = 0; round < kRounds; ++round) {
+            if (interruption.ends([] { return 0; })) return false;
+            window_.open_whole(state, data_);
+            const double largest = fit_.run(window_, limits_, {&stage, 1}, round == 0);
+            window_.write_back(state);
+            if (largest <= limits_.enough) return true;
+            if (state.n_points() >= most_points) return false;
+            if (!split(state, next_id)) return false;
+        }
+        return false;
+    }
+
+  private:
+    static constexpr int kRounds = 40, kIterations = 5;
+
+    bool split(SplineState<Degree> &state, int &next_id) {
+        window_.open_whole(state, data_);
+        Tracking<Degree>::span_curves(window_.curve, curves_);
+        Tracking<Degree>::residuals(window_, window_.curve, curves_, residuals_);
+        Tracking<Degree>::sample(window_, window_.curve, curves_, limits_.samples_per_span,
+                                 0.0, nullptr, samples_);
+        const int m = state.n_points();
+        std::vector<double> worst(state.closed ? m : m + Degree, 0.0);
+        const auto note = [&](int local, double distance_sq) {
+            double &value = worst[state.interval_index(window_.origin + local)];
+            value = std::max(value, distance_sq);
+        };
+        for (int j = 0; j < window_.n_data(); ++j)
+            note(window_.curve.span[j], norm_sq(residuals_[j]));
+        for (const CurveSample &s : samples_) note(s.span, s.distance_sq);
+
+        const double enough = limits_.enough * limits_.tolerance;
+        std::vector<std::pair<double, int>> failing;
+        for (int k = 0; k < static_cast<int>(worst.size()); ++k)
+            if (worst[k] > enough * enough && state.intervals[k] >= 2.0 * limits_.least_interval)
+                failing.emplace_back(-worst[k], k);
+        if (failing.empty()) return false;
+        std::sort(failing.begin(), failing.end());
+        failing.resize((failing.size() + 1) / 2);
+        // From the last span to the first, so that indices before it stay.
+        std::sort(failing.begin(), failing.end(),
+                  [](const auto &a, const auto &b) { return a.second > b.second; });
+        for (const auto &[_, k] : failing) insert_knot(state, k, 0.0, next_id++);
+        return true;
+    }
+
+    std::span<const Vec2> data_;
+    FitLimits limits_;
+    Window<Degree> window_;
+    PNormFit<Degree> fit_;
+    typename Tracking<Degree>::Curves curves_;
+    std::vector<Vec2> residuals_;
+    std::vector<CurveSample> samples_;
+};
+
+}  // namespace shapespline::spline

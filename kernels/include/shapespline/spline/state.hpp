@@ -1,0 +1,180 @@
+// A spline being changed knot by knot: intervals, control points, and the local parameter of every
+// data point.
+//
+// Span k lies between knots k and k + 1, intervals[k] wide, and is made by control points k -
+// degree .. k. Open: knots clamped, control points 0 .. m - 1, intervals 0 .. m + degree - 1, of
+// which degree at either end are zero. Closed: m intervals and m control points, all indices modulo
+// m; the spans of data points are *unwrapped*: they do not decrease along the data, and the data of
+// the next turn (index + n) lie on span + m. A multiple knot is a interval of zero.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "shapespline/base/vec2.hpp"
+
+namespace shapespline::spline {
+
+inline int floor_div(int a, int b) { return a / b - (a % b < 0 ? 1 : 0); }
+inline int wrap(int a, int b) { return a - b * floor_div(a, b); }
+
+template <int Degree>
+struct SplineState {
+    bool closed = false;
+    std::vector<double> intervals;
+    std::vector<Vec2> points;
+    std::vector<int> knot_ids;  // of the knot that each interval begins at: survive renumbering
+    std::vector<int> span;      // of every data point
+    std::vector<double> local_parameter;  // of every data point on its span, in [-1, 1]
+
+    int n_points() const { return static_cast<int>(points.size()); }
+    int n_data() const { return static_cast<int>(span.size()); }
+    int first_span() const { return closed ? 0 : Degree; }
+    int interval_index(int k) const { return closed ? wrap(k, n_points()) : k; }
+    double interval(int k) const { return intervals[interval_index(k)]; }
+    Vec2 point(int i) const { return points[closed ? wrap(i, n_points()) : i]; }
+
+    // Span of data point j, unwrapped beyond 0 .. n - 1 if closed.
+    int span_of(int j) const {
+        const int n = n_data();
+        if (!closed) return span[j];
+        const int turn = floor_div(j, n);
+        return span[j - turn * n] + turn * n_points();
+    }
+    // The first (unwrapped) data point whose span is at least k.
+    int first_data(int k) const {
+        const int n = n_data();
+        if (!closed)
+            return static_cast<int>(std::lower_bound(span.begin(), span.end(), k) - span.begin());
+        const int turn = floor_div(k - span[0], n_points());
+        int low = (turn - 1) * n, high = (turn + 1) * n;
+        while (low < high) {
+            const int middle = low + (high - low) / 2;
+            if (span_of(middle) < k)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        return low;
+    }
+    // Knots that may be removed: the first of every group, ends of an open curve excepted.
+    bool removable(int r) const {
+        if (!closed && (r <= Degree || r >= n_points())) return false;
+        return interval(r - 1) > 0.0;
+    }
+    int knot_with_id(int id) const {
+        const auto at = std::find(knot_ids.begin(), knot_ids.end(), id);
+        return at == knot_ids.end() ? -1 : static_cast<int>(at - knot_ids.begin());
+    }
+    // Keeps unwrapped spans from walking away as turns are added up.
+    void normalize() {
+        if (!closed || span.empty()) return;
+        const int shift = n_points() * floor_div(span[0], n_points());
+        for (int &s : span) s -= shift;
+    }
+};
+
+// The control point that goes with knot r, the middle one of those that it shapes.
+template <int Degree>
+int central_point(int r) {
+    return r - (Degree + 1) / 2;
+}
+
+// Removes knot r, in [0, m): its two spans become one, one control point goes, the others stay as
+// they are (a start for a fit, not an approximation).
+template <int Degree>
+void remove_knot(SplineState<Degree> &state, int r) {
+    const int m = state.n_points(), c = central_point<Degree>(r);
+    const double before = state.interval(r - 1), after = state.interval(r), merged = before + after;
+    for (int j = 0; j < state.n_data(); ++j) {
+        int &span = state.span[j];
+        double &local_parameter = state.local_parameter[j];
+        const int offset = state.closed ? wrap(span - r, m) : span - r;  // m - 1 is span r - 1
+        if (merged > 0.0 && (offset == -1 || (state.closed && offset == m - 1)))
+            local_parameter = (local_parameter + 1.0) * before / merged - 1.0;
+        else if (merged > 0.0 && offset == 0)
+            local_parameter = (2.0 * before + (local_parameter + 1.0) * after) / merged - 1.0;
+        if (state.closed)
+            span -= floor_div(span - r, m) + 1;
+        else if (span >= r)
+            --span;
+    }
+    state.intervals[state.interval_index(r - 1)] = merged;
+    if (!state.closed) {
+        state.intervals.erase(state.intervals.begin() + r);
+        state.knot_ids.erase(state.knot_ids.begin() + r);
+        state.points.erase(state.points.begin() + c);
+        return;
+    }
+    const SplineState<Degree> &old = state;
+    std::vector<double> intervals(m - 1);
+    std::vector<int> ids(m - 1);
+    std::vector<Vec2> points(m - 1);
+    for (int i = r - m + 1; i < r; ++i) {
+        intervals[wrap(i, m - 1)] = old.intervals[wrap(i, m)];
+        ids[wrap(i, m - 1)] = old.knot_ids[wrap(i, m)];
+    }
+    for (int i = c - m + 1; i < c; ++i) points[wrap(i, m - 1)] = old.points[wrap(i, m)];
+    state.intervals = std::move(intervals);
+    state.knot_ids = std::move(ids);
+    state.points = std::move(points);
+    state.normalize();
+}
+
+// Splits span k, a state index, at local parameter u; the curve stays the same (Boehm 1980).
+template <int Degree>
+void insert_knot(SplineState<Degree> &state, int k, double u, int id) {
+    const int m = state.n_points();
+    const double width = state.interval(k), t = 0.5 * (u + 1.0) * width;
+    std::array<Vec2, Degree> blended;
+    for (int l = 0; l < Degree; ++l) {
+        const int i = k - Degree + 1 + l;
+        double low = 0.0, high = 0.0;  // knots i and i + degree, from knot k
+        for (int q = i; q < k; ++q) low -= state.interval(q);
+        for (int q = k; q < i + Degree; ++q) high += state.interval(q);
+        const double share = (t - low) / (high - low);
+        blended[l] = share * state.point(i) + (1.0 - share) * state.point(i - 1);
+    }
+    for (int j = 0; j < state.n_data(); ++j) {
+        int &span = state.span[j];
+        double &local_parameter = state.local_parameter[j];
+        const int turn = state.closed ? floor_div(span - k, m) : 0;
+        const int offset = span - k - turn * m;
+        bool after = offset > 0;
+        if (offset == 0) {
+            after = local_parameter >= u;
+            local_parameter = after ? 2.0 * (local_parameter - u) / (1.0 - u) - 1.0
+                          : 2.0 * (local_parameter + 1.0) / (u + 1.0) - 1.0;
+        }
+        span += turn + (after ? 1 : 0);
+    }
+    if (!state.closed) {
+        state.intervals[k] = t;
+        state.intervals.insert(state.intervals.begin() + k + 1, width - t);
+        state.knot_ids.insert(state.knot_ids.begin() + k + 1, id);
+        state.points.insert(state.points.begin() + k, Vec2{});
+        std::copy(blended.begin(), blended.end(), state.points.begin() + k - Degree + 1);
+        return;
+    }
+    const SplineState<Degree> &old = state;
+    std::vector<double> intervals(m + 1);
+    std::vector<int> ids(m + 1);
+    std::vector<Vec2> points(m + 1);
+    for (int i = k; i <= k + m; ++i) {
+        const int source = wrap(i > k ? i - 1 : i, m);
+        intervals[wrap(i, m + 1)] = i == k ? t : i == k + 1 ? width - t : old.intervals[source];
+        ids[wrap(i, m + 1)] = i == k + 1 ? id : old.knot_ids[source];
+    }
+    for (int i = k - Degree + 1; i <= k - Degree + 1 + m; ++i)
+        points[wrap(i, m + 1)] =
+            i <= k ? blended[i - (k - Degree + 1)] : old.points[wrap(i - 1, m)];
+    state.intervals = std::move(intervals);
+    state.knot_ids = std::move(ids);
+    state.points = std::move(points);
+    state.normalize();
+}
+
+}  // namespace shapespline::spline

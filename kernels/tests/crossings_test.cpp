@@ -1,0 +1,50 @@
+// Crossings counted by the sweep against every pair of segments solved for their common point.
+#include "check.hpp"
+#include "shapes.hpp"
+#include "shapespline/distance/crossings.hpp"
+
+using namespace shapespline;
+
+namespace {
+
+bool cross_inside(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+    const double turn = cross(b - a, d - c);
+    if (turn == 0.0) return false;
+    const double s = cross(c - a, d - c) / turn, t = cross(c - a, b - a) / turn;
+    return s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
+}
+
+int counted_by_pairs(const std::vector<Vec2> &vertices) {
+    int count = 0;
+    for (std::size_t i = 0; i + 1 < vertices.size(); ++i)
+        for (std::size_t k = i + 2; k + 1 < vertices.size(); ++k)
+            count += cross_inside(vertices[i], vertices[i + 1], vertices[k], vertices[k + 1]);
+    return count;
+}
+
+int counted(const std::vector<Vec2> &vertices) {
+    return count_crossings(std::span<const Vec2>(vertices));
+}
+
+}  // namespace
+
+TEST(the_sweep_finds_every_crossing_pair) {
+    std::mt19937 random(6);
+    int total = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        const auto vertices = trial % 2 ? random_walk(random, 60) : random_points(random, 25);
+        CHECK(counted(vertices) == counted_by_pairs(vertices));
+        total += counted(vertices);
+    }
+    CHECK(total > 1000);
+}
+
+TEST(ways_through_a_vertex_cross_once_and_touching_ones_evenly) {
+    // Down through the vertex (2, 0) of a horizontal way, and down to it and up again.
+    CHECK(counted({{0, 0}, {2, 0}, {4, 0}, {4, 2}, {2, 2}, {2, -1}}) == 1);
+    CHECK(counted({{0, 0}, {2, 0}, {4, 0}, {4, 2}, {2, 0}, {1, 2}}) % 2 == 0);
+    CHECK(counted({{0, 0}, {1, 1}, {1, 0}, {0, 1}}) == 1);
+    CHECK(counted({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}) == 0);
+    CHECK(counted({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 1e-17}}) == 0);
+    CHECK(counted({{0, 0}}) == 0);
+}
