@@ -73,6 +73,15 @@ class Monitor:
         self.history: list[Iteration] = []
 
     @property
+    def of_iterations(self) -> Callback | None:
+        """What a solver calls after each iteration; None where nobody listens and time is no limit.
+
+        Then it need not come out of the kernel for each of them, and asks `ends` now and then.
+        """
+        unheard = self._callback is None and self.time_limit == inf
+        return None if unheard else self.iterated
+
+    @property
     def seconds(self) -> float:
         """Time since the monitor was made."""
         return monotonic() - self._begin

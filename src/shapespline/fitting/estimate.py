@@ -256,7 +256,8 @@ def _finished(
         ends=None if contour.closed else ends,
         stray_weight=STRAY_WEIGHT,
         limits=FINAL_LIMITS,
-        callback=monitor.iterated,
+        callback=monitor.of_iterations,
+        ask=monitor.ends,
     )
 
 

@@ -185,7 +185,8 @@ class LeastSquares:
             weights=weights,
             stray_weight=STRAY_WEIGHT,
             limits=FINAL_LIMITS,
-            callback=monitor.iterated,
+            callback=monitor.of_iterations,
+            ask=monitor.ends,
         )
         yield Candidate(method=name, spline=found.spline, run=found.run, history=found.history)
 

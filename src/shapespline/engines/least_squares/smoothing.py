@@ -73,14 +73,14 @@ def smoothed(
         size = smoothed(thinned, degree, noise, monitor=monitor).n_control_points
         if size <= degree:
             return straight_line(contour, noise)
-        return _of_size(size, contour, degree, noise)
+        return _of_size(size, contour, degree, noise, monitor=monitor)
     best = Smoothed(contour.points, np.inf, len(contour), None)
     if not contour.closed and weights is None:
         best = straight_line(contour, noise)
     most = max(degree + 1, int(LARGEST_PART * len(contour)))
     size, misses = degree + 1, 0
     while size <= most and (size <= AT_LEAST or misses < PATIENCE):
-        found = _of_size(size, contour, degree, noise, weights)
+        found = _of_size(size, contour, degree, noise, weights, monitor=monitor)
         best, misses = (found, 0) if found.cost < best.cost else (best, misses + 1)
         size = max(size + 1, round(SIZE_FACTOR * size))
         if monitor.ends(size):
@@ -88,7 +88,7 @@ def smoothed(
     middle = best.n_control_points
     for size in range(round(middle / SIZE_FACTOR) + 1, round(middle * SIZE_FACTOR)):
         if degree < size <= most and (size - middle) % max(1, round(FINEST * middle)) == 0:
-            found = _of_size(size, contour, degree, noise, weights)
+            found = _of_size(size, contour, degree, noise, weights, monitor=monitor)
             best = found if found.cost < best.cost else best
             if monitor.ends(size):
                 break
@@ -101,9 +101,13 @@ def _of_size(
     degree: int,
     noise: float,
     weights: FloatArray | None = None,
+    *,
+    monitor: Monitor,
 ) -> Smoothed:
     """The least-squares spline with so many control points."""
-    start = balanced_start(contour, size, degree, weights, rounds=0, ends="fitted")
+    start = balanced_start(
+        contour, size, degree, weights, rounds=0, ends="fitted", ask=monitor.ends
+    )
     points = start.spline(start.parameters)
     squares = ((points - contour.points) ** 2).sum(axis=1)
     total = float(squares.sum() if weights is None else weights @ squares)

@@ -206,7 +206,8 @@ def least_squares(
         LevenbergMarquardt(),
         ends=fitted,
         stray_weight=STRAY_WEIGHT,
-        callback=monitor.iterated,
+        callback=monitor.of_iterations,
+        ask=monitor.ends,
     ).spline
     start = Balanced(first, two_sided_distance(first, sample).parameters)
     middle = 0.5 * (seen.low + seen.high)
