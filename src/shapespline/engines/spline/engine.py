@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 EXTENT = 100.0
 # Gaps of a fair curve: corners need some as small as the tolerance, long straight runs large ones.
 # Measured: 0.02 / 0.04 / 0.06 / 0.1 / 0.15 at tolerances 0.1 and 0.5 give 834 / 810 / 807 / 800 /
-# 794 control points over 26 fits.
+# 794 control points over 26 fits (SPL-01).
 LEAST_GAP = (0.015, 0.2)
 LEAST_GAP_TOLERANCES = 1.5
 FREE_GAPS = (1e-3, 150.0)
@@ -44,7 +44,7 @@ ATTEMPTS = 5
 MOST_TRIALS = 20_000
 
 # Stages as (half of p, iterations, gaps free, largest distance in tolerances to go on with), after
-# the number of free control points on each side.
+# the number of free control points on each side (SPL-06).
 _RANK = (3, [(1, 1, False, inf)])
 _REMOVE_QUICKLY = (4, [(1, 3, False, 6.0), (3, 8, True, 2.0), (6, 15, True, inf)])
 _REMOVE = (4, [(1, 6, False, 6.0), (3, 8, True, 2.5), (6, 25, True, inf)])
@@ -66,6 +66,7 @@ class _Level(NamedTuple):
     worth_retrying: float = inf
 
 
+# What each effort spends (SPL-02, SPL-07).
 LEVELS = {
     "fast": _Level(_REMOVE_QUICKLY, 0, [], 4.0, worth_trying=6.0),
     "balanced": _Level(_REMOVE, 1, [0, 2], 8.0, worth_retrying=2.0),
