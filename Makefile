@@ -46,6 +46,8 @@ paper: $(READY)
 figures: $(READY)
 	$(BIN)/python -m benchmarks.readme_figures
 	$(BIN)/python -m benchmarks.howto_figures
+	$(BIN)/python -m benchmarks.engine_figures
+	$(BIN)/python scripts/rooms_picture.py
 
 clean:
 	rm -rf $(VENV) build demo-output bench-output .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks

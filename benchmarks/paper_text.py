@@ -144,8 +144,8 @@ def _reading() -> list[str]:
         tables.table(("open point", "literal", "sensible"), READINGS, n_words=3),
         paragraph(
             "Both are values: `LITERAL` and `SENSIBLE` in"
-            " [initial.py](../src/shapespline/initial.py), the rest in"
-            " [paper.py](../src/shapespline/paper.py). E is the paper's"
+            " [reading.py](../src/shapespline/paper/reading.py), the rest in"
+            " [run.py](../src/shapespline/paper/run.py). E is the paper's"
             " error, the root of the sum of squared residuals over n - 1 for n points, taken at"
             " the location parameters. Those are no foot parameters, and they say nothing of the"
             " curve between the data; so beside E stand the distances of the data from the curve,"

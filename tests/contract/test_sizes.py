@@ -14,7 +14,7 @@ from shapespline.fitting.request import tolerance_length
 PINNED = Path(__file__).with_name("pinned_points.csv")
 # Stored points at a tolerance of 0.1 and 0.5 on a box diagonal of 100, upper bounds: what the
 # experiments reached on the same outlines, or the average over shaken data where that is more
-# ("Luck" in docs/decisions.md).
+# (PKG-01).
 SIZES = {
     ("pieces", "auto"): {
         "hand620_closed": (56, 31), "leaf840_closed": (73, 37),

@@ -1,6 +1,6 @@
 """Analysis: what points tell before any fit."""
 
-from shapespline.analysis.corners import GENTLE_TURN, LEAST_TURN, find_corners
+from shapespline.analysis.corners import LEAST_TURN, LOW_TURN, find_corners
 from shapespline.analysis.cpda import Cpda, check_window, chord_to_point
 from shapespline.analysis.mirror import Mirror, find_mirror
 from shapespline.analysis.noise import noise_level
@@ -32,9 +32,9 @@ from shapespline.analysis.straight_runs import (
 
 __all__ = [
     "FEWEST_STRAIGHT",
-    "GENTLE_TURN",
     "LEAST_TURN",
     "LONGEST_CHORD",
+    "LOW_TURN",
     "MOST_SCATTER",
     "NOISE_BAND",
     "STRAIGHT_PART",

@@ -20,14 +20,15 @@ if TYPE_CHECKING:
 
     from shapespline.typing import FloatArray, IntArray
 
-# A corner turns at least this much, radians; what turns less than the second is gentle, and not
-# looked at again.
-LEAST_TURN, GENTLE_TURN = np.radians(25.0), np.radians(8.0)
-# The shortest length on either side that is looked at: in median steps, in tolerances.
+# A corner of the data turns at least this much over the lengths below, radians; what turns less
+# than the second has a low turn, and is not looked at again. Neither is about joints of a curve:
+# those are smooth by the values' `SMOOTH_TURN` (PIE-13, PIE-22).
+LEAST_TURN, LOW_TURN = np.radians(25.0), np.radians(8.0)
+# The shortest length on either side that is looked at: in median steps, in tolerances (ANA-03).
 STEPS = 5.0
 TOLERANCES = 8.0
 # A bend that is seen to be round from that near, in tolerances, is no corner. Looked at where that
-# is nearer than the length above by a third.
+# is nearer than the length above by a third (ANA-04).
 CLOSE_TOLERANCES, CLOSER = 2.0, 0.65
 # A parabola over a length L sampled at spacing d with noise sigma has a slope error of about
 # sigma sqrt(d / L^3) times a constant; this one makes it a small part of LEAST_TURN.
@@ -41,7 +42,7 @@ QUIET_STEP = 0.3
 # Of more points every so many-th is looked at first.
 MOST_POINTS = 10_000
 # Around a bend that the points resolve the curvature changes by no more than this part of its peak
-# from one to the next; at a corner it springs up, and where a line runs into an arc.
+# from one to the next; at a corner it springs up, and where a line runs into an arc (ANA-05).
 GRADUAL_PART = 0.45
 # Corners keep this part of the length apart.
 APART = 0.6
@@ -51,7 +52,7 @@ class Corners(NamedTuple):
     """Where a contour turns abruptly.
 
     ``indices`` (k,) are increasing; ``turns`` (n,) is the turn of every point over ``length``, in
-    radians; where that is not gentle the smallest of those over several lengths (0 where they
+    radians; where that is not low the smallest of those over several lengths (0 where they
     disagree in sign, and around a bend).
     """
 
@@ -97,7 +98,7 @@ def _found(contour: Contour, tolerance: float, sigma: float) -> Corners:
     if (close := max(shortest, CLOSE_TOLERANCES * tolerance)) < CLOSER * length:
         others.append(close)
     turns = np.abs(fine)
-    abrupt = np.flatnonzero(turns >= GENTLE_TURN)
+    abrupt = np.flatnonzero(turns >= LOW_TURN)
     for other in others:
         again = tangent_jumps(contour, other, stations, abrupt)
         agree = again * fine[abrupt] > 0

@@ -29,9 +29,10 @@ if TYPE_CHECKING:
 SAMPLES, MOST_AXES, NEARLY = 512, 3, 0.9999
 # The error of an axis is known to this part of itself.
 ERROR_GAP = 0.1
-# At last so many times the samples place the axis: their error at corners is that of a quadrature.
+# At last so many times the samples place the axis: their error at corners is that of a quadrature
+# (ANA-13).
 REFINED = 16
-# Parabolas find it: over what part of a step, with how many times the samples.
+# Parabolas find it: over what part of a step, with how many times the samples (ANA-13).
 PARABOLAS = ((0.5, 2), (0.05, 2), (0.05, REFINED))
 
 

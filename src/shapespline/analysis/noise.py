@@ -11,11 +11,11 @@ from shapespline.validation import median
 if TYPE_CHECKING:
     from shapespline.values import Contour
 
-# Points on each side of the middle of a local fit.
+# Points on each side of the middle of a local fit (ANA-01).
 HALF_WINDOW = 3
 # So many windows tell the median to 2 %; of more, every so many-th is looked at.
 MOST_WINDOWS = 5_000
-# Of fewer points nobody can tell noise from bends.
+# Of fewer points nobody can tell noise from bends (ANA-01).
 FEWEST_POINTS = 64
 # A cubic fitted to a window: its slope in the middle, and what is left of every point.
 _POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)

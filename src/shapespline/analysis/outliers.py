@@ -12,12 +12,12 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray, IntArray
     from shapespline.values import Contour
 
-# Outliers in a row at most: more may be a feature.
+# Outliers in a row at most: more may be a feature (ANA-06).
 LONGEST_RUN = 3
 # Steps on each side that say how far apart neighbours lie, by their upper quartile.
 NEIGHBOURS = 6
 # A run is off the path by this many such steps and by this many times the noise. A feature that is
-# sampled as densely as what is around it stays below (LONGEST_RUN + 1) / 2 steps.
+# sampled as densely as what is around it stays below (LONGEST_RUN + 1) / 2 steps (ANA-06).
 STEPS, SIGMAS = 2.5, 6.0
 
 

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray, IntArray
 
 # So many points that spread across a line by no more than this part of the tolerance are a straight
-# run of the data, which one smooth spline would bend.
+# run of the data, which one smooth spline would bend (ANA-10, FIT-08).
 FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1
 # A chord is a run, and not one of a row along an arc, if most of it stays one chord within a
 # fiftieth of the distance, where an arc makes seven and an inflection four. It is longer than some
 # tolerances.
 FINER, ONE_CHORD, LEAST_TOLERANCES = 0.02, 0.6, 10.0
-# An edge so many times as long as the median was drawn as a line, not sampled.
+# An edge so many times as long as the median was drawn as a line, not sampled (ANA-11).
 LONG_EDGE = 8.0
 # Of bends sixteen times as much is left at twice the distance, of scatter as much.
 BEND_GROWTH = 4.0

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     Command = Callable[..., Any]
 
 
-# What the samples on an exact curve may be off, of the tolerance of the fit to them.
+# What the samples on an exact curve may be off, of the tolerance of the fit to them (GEO-01).
 SAMPLING_PART = 0.02
 
 

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from shapespline.monitor import Monitor
 
 # Beyond this part of the vertices of a polyline found in one pass, which are more than need be,
-# lines are looked at.
+# lines are looked at (PIE-20).
 CHORDS_PART = 0.7
 
 

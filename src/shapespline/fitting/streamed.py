@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.analysis import (
-    GENTLE_TURN,
     LONGEST_CHORD,
+    LOW_TURN,
     NormalizedContour,
     canonical_reading,
     find_corners,
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from shapespline.typing import IntArray
     from shapespline.values import Fit
 
-# So many points are fitted in passes over chunks, where nothing asks for more.
+# So many points are fitted in passes over chunks, where nothing asks for more (STR-01).
 MANY_POINTS = 50_000
 
 
@@ -142,7 +142,7 @@ def _pieces_problem(
     found = find_corners(sample, aim)
     stride = n_points / len(sample)
     beside = np.minimum((indices / stride).astype(np.int64), len(sample) - 1)
-    low_turn = (found.turns[beside] < GENTLE_TURN).astype(np.int64)
+    low_turn = (found.turns[beside] < LOW_TURN).astype(np.int64)
     chosen = [_farthest(thinned, indices, stride * at, 2.0 * stride) for at in found.indices]
     places = np.unique(normalized.place[np.array(chosen, dtype=np.int64)]) if chosen else empty
     return PiecesProblem(

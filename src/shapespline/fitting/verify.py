@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.geometry import EXACT, joined, two_sided_distance
+from shapespline.geometry import joined, two_sided_distance
 from shapespline.monitor import End
 from shapespline.solvers import Stop
-from shapespline.values import Fit, Status
+from shapespline.values import EXACT_TURN, Fit, Status
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -131,7 +131,7 @@ def _tangent_error(pieces: Sequence[Piece], constraints: Constraints) -> float:
         if wanted is not None:
             (ux, uy), (vx, vy) = wanted, b - a
             errors.append(abs(float(np.arctan2(ux * vy - uy * vx, ux * vx + uy * vy))))
-    return max(errors) if max(errors) > EXACT else 0.0
+    return max(errors) if max(errors) > EXACT_TURN else 0.0
 
 
 def verified_fit(

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 # Of a circle one cubic replaces at most this angle: it is then nowhere farther from the arc than
 # 4/27 sin^6(a/4) / cos^2(a/4) of the radius [1]_, a billionth of it. Ellipses are affine images of
-# circles: a billionth of the longer half axis.
+# circles: a billionth of the longer half axis (FMT-02).
 LARGEST_ANGLE = math.radians(10.0)
 CUBIC_KNOTS = np.repeat([0.0, 1.0], 4)
 

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
     from shapespline.typing import ArrayLike, FloatArray
 
-# How far the cubics may lie from a rational curve, of the diagonal of its control points' box.
+# How far the cubics may lie from a rational curve, of the diagonal of its control points' box
+# (FMT-03).
 RATIONAL_TOLERANCE = 1e-9
 # Halvings of a span at most; a spline that needs more has weights of no use.
 MOST_HALVINGS = 12

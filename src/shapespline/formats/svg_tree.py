@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 # After elements that are used again have been copied.
 MOST_ELEMENTS = 200_000
 DEEPEST = 200
-# A pixel of CSS.
+# A pixel of CSS (FMT-04).
 PIXEL_MILLIMETRES = 25.4 / 96
 LENGTH = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(px|mm|cm|in|pt|pc|Q)?\s*")
 LENGTHS = ("x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "x1", "y1", "x2", "y2")

@@ -13,7 +13,7 @@ from shapespline.geometry.distances import (
 from shapespline.geometry.exact import Outlines, exact_drawing
 from shapespline.geometry.flattening import chords, sampled
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
-from shapespline.geometry.joining import EXACT, joined, turn_between
+from shapespline.geometry.joining import joined, turn_between
 from shapespline.geometry.nearest import nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
@@ -22,7 +22,6 @@ from shapespline.geometry.reversal import backwards, reversed_curve
 from shapespline.geometry.scaling import in_unit
 
 __all__ = [
-    "EXACT",
     "FLOOR",
     "PARAMETRIZATIONS",
     "CentredCurve",

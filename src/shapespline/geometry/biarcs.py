@@ -20,21 +20,19 @@ import numpy as np
 
 from shapespline.errors import InvalidInputError
 from shapespline.validation import is_number
+from shapespline.values import EXACT_TURN, BSplineCurve
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from shapespline.typing import FloatArray
-    from shapespline.values import BSplineCurve
 
-# Part of the tolerance that samples on the curve may keep from what lies between them.
+# Part of the tolerance that samples on the curve may keep from what lies between them (GEO-02).
 SAMPLING_PART = 0.02
-# Directions that differ by less, radians, are one: no corner.
-SMOOTH = 1e-9
 # A Bezier that strays from its chord by less than this part of it is a line.
 STRAIGHT = 1e-12
 # An arc of a biarc turns by a quarter at most: the biarc by a half, of which one arc may be made.
-LARGEST_TURN = 0.5 * pi + SMOOTH
+LARGEST_TURN = 0.5 * pi + EXACT_TURN
 MOST_SAMPLES = 2_000_000
 
 
@@ -162,7 +160,7 @@ def _is_straight(bezier: FloatArray) -> bool:
 
 def _is_smooth(before: FloatArray, after: FloatArray) -> bool:
     turn = before[0] * after[1] - before[1] * after[0]
-    return abs(turn) <= SMOOTH and float(before @ after) > 0
+    return abs(turn) <= EXACT_TURN and float(before @ after) > 0
 
 
 def _joined(parts: list[tuple[FloatArray, FloatArray]]) -> _Stretch:
@@ -258,8 +256,8 @@ def _biarc(stretch: _Stretch, begin: int, end: int, tolerance: float) -> list[_S
         if len(own) and _deviation(segment, own) > tolerance:
             return None
     whole = _half_turn(t0, v)
-    if abs(whole - _half_turn(v, t1)) < SMOOTH:  # both arcs lie on one circle, or line
-        return [_Segment(p, q, float(np.tan(whole / 2)) if abs(whole) > SMOOTH else 0.0)]
+    if abs(whole - _half_turn(v, t1)) < EXACT_TURN:  # both arcs lie on one circle, or line
+        return [_Segment(p, q, float(np.tan(whole / 2)) if abs(whole) > EXACT_TURN else 0.0)]
     return [one, two]
 
 
@@ -285,7 +283,7 @@ def _deviation(segment: _Segment, points: FloatArray) -> float:
     along, left = chord / length, np.array([-chord[1], chord[0]]) / length
     offset = points - 0.5 * (segment.begin + segment.end)
     b = segment.bulge
-    if abs(b) < SMOOTH:
+    if abs(b) < EXACT_TURN:
         distances = np.abs(offset @ left)
     else:
         radius = length * (1 + b * b) / (4 * abs(b))

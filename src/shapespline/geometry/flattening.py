@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from shapespline.values import BSplineCurve
 
 # Chordal distance of the samples where the caller names none, of the box diagonal of the outline,
-# and the largest that is taken.
+# and the largest that is taken (GEO-01).
 SAMPLING = 1e-4
 COARSEST = 1e-2
 # Longest step between samples, of the box diagonal. Without one, rounded corners between long lines
-# were taken for sharp ones: a rounded rectangle of 8 pieces took 12 points instead of 6.
+# were taken for sharp ones: a rounded rectangle of 8 pieces took 12 points instead of 6 (GEO-01).
 LONGEST_STEP = 2e-2
 # Samples of one outline; a caller who wants more has mistaken the unit.
 MOST_SAMPLES = 5_000_000

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.values import BSplineCurve, Piece
+from shapespline.values import EXACT_TURN, BSplineCurve, Piece
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 # Control points beside a node that are closer to it than this part of the others, or parameter
 # intervals that differ by more, leave the node a full knot.
 LARGEST_RATIO = 1e5
-# Rounding that a common tangent may show, radians.
-EXACT = 1e-9
 
 
 def turn_between(before: Piece, after: Piece) -> float:
@@ -99,7 +97,7 @@ def _c1_possible(before: Piece, after: Piece) -> bool:
     u, v = hypot(*_last_leg(before)), hypot(*_first_leg(after))
     return (
         before.degree > 1
-        and abs(turn_between(before, after)) < EXACT
+        and abs(turn_between(before, after)) < EXACT_TURN
         and u < LARGEST_RATIO * v
         and v < LARGEST_RATIO * u
     )

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from shapespline.values import Contour
 
 # Vertices of an outline that are asked whether they lie inside another: where outlines touch or
-# share a stretch, a single one may be told wrong.
+# share a stretch, a single one may be told wrong (GEO-03).
 WITNESSES = 7
 
 

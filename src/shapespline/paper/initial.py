@@ -35,9 +35,9 @@ DEFAULT_LENGTH = 8
 # Steps between points may differ by this factor and still count as equal.
 EVEN_SPACING = 1.5
 # A chord given as an arc length is divided into this many steps, whatever the data's density: the
-# work is then that of the outline's length in chords, not of n times L.
+# work is then that of the outline's length in chords, not of n times L (PAP-02).
 CHORD_STEPS = 16
-# The curvature offset may push a control point this part of its distance to the next ones.
+# The curvature offset may push a control point this part of its distance to the next ones (PAP-03).
 LARGEST_OFFSET = 0.25
 # More CPDA points than this are no outline but a slip of the unit.
 MOST_STEPS = 100_000_000

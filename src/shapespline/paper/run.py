@@ -37,7 +37,7 @@ SENSIBLE_METHOD = "d-bfgs"
 LITERAL_LIMITS = Limits(max_iterations=50_000, max_evaluations=50_000, relative_decrease=1e-6)
 SENSIBLE_LIMITS = Limits(max_iterations=4000, max_evaluations=4000, relative_decrease=1e-5)
 # Where nothing holds the curve between the data, what a long run gains it gains by loops there
-# (METHOD, section 4): residuals on the curve itself hold it (docs/decisions.md).
+# (METHOD, section 4): residuals on the curve itself hold it (LSQ-01).
 SENSIBLE_STRAY_WEIGHT = 0.1
 # The sensible reading halves gaps between dominant points that are wider than this part of the mean
 # gap: with one control point a maximum, none shapes the run between two of them.

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
 
 # Points of a chunk: two megabytes, which the caches of a core hold and whose handling costs
-# far more than calling for it.
+# far more than calling for it (STR-02).
 CHUNK = 1 << 17
 # Chunks that are under way at a time: on an executor, and as blocks of a dask array.
 UNDER_WAY = 8

@@ -11,12 +11,14 @@ from shapespline.values.knots import (
     greville_abscissae,
     periodic_knots,
 )
-from shapespline.values.piece import CORNER_TURN, Piece
+from shapespline.values.piece import CORNER_TURN, EXACT_TURN, SMOOTH_TURN, Piece
 from shapespline.values.shape import Shape, checked_parents, nesting_depth
 from shapespline.values.view_box import ViewBox
 
 __all__ = [
     "CORNER_TURN",
+    "EXACT_TURN",
+    "SMOOTH_TURN",
     "BSplineCurve",
     "Contour",
     "Drawing",

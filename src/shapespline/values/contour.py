@@ -32,7 +32,7 @@ SMALLEST_DIAGONAL = 1e-60
 SMALLEST_PART = 1e-12
 # Ends no farther apart than the longest step, or this many median steps, belong to an outline that
 # closes. On 453 outlines known to be open or closed 433 are told right; with the median alone 406:
-# drawings made of straight edges close with one of them.
+# drawings made of straight edges close with one of them (VAL-01).
 CLOSING_GAP = 1.5
 
 

@@ -12,9 +12,13 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
 
 
-# A joint that turns by no more is smooth to the eye and to a milling machine; a rounding above the
-# degree that fits promise.
-CORNER_TURN = np.radians(1.01)
+# A joint is smooth when it turns by no more than this, radians: a degree, which neither the eye nor
+# a milling machine sees. The other thresholds of joints are made of it.
+SMOOTH_TURN = np.radians(1.0)
+# A joint that turns more is a corner; rounding adds less to a joint that keeps the degree.
+CORNER_TURN = 1.01 * SMOOTH_TURN
+# Tangents that are one agree to rounding, radians.
+EXACT_TURN = 1e-9
 
 
 class Piece(NamedTuple):

@@ -31,11 +31,12 @@ if TYPE_CHECKING:
 CLEAR = 1.25
 # Below this part of clear points the order is a guess, and refused.
 LEAST_CONFIDENCE = 0.5
-# A chain of noisy points turns by more than this at most of its points, radians.
+# A chain of noisy points turns by more than this at most of its points, radians; far more than any
+# joint of a curve that is smooth.
 JAGGED = np.radians(50.0)
 # Chains through noisy points are jagged at this part of their points and more, those through points
 # moved onto the middle at this part and less.
-NOISY, SMOOTH = 0.3, 0.1
+NOISY, QUIET = 0.3, 0.1
 # Radii tried for the local parabolas, in median distances to the nearest neighbour.
 RADII = (4.0, 6.0, 9.0, 13.0, 20.0, 30.0)
 PROJECTIONS = 4
@@ -236,7 +237,7 @@ def _noisy(
         if len(kept) < 6:
             break
         links = complete(linked(moved[kept]))
-        if _jagged_part(moved[kept], links) > SMOOTH:
+        if _jagged_part(moved[kept], links) > QUIET:
             continue
         found = _ordering(moved[kept], np.arange(len(kept)), links, closed)
         if found.confidence < 0.8:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from shapespline.solvers import Metric
     from shapespline.typing import FloatArray
 
-# Entries of the Gauss-Newton diagonal below this part of the largest are raised to it.
+# Entries of the Gauss-Newton diagonal below this part of the largest are raised to it (LSQ-03).
 DIAGONAL_FLOOR = 1e-12
 ENDS = ("interpolated", "fitted", "free")
 # Newton steps of a foot point between two steps of the control points.

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 # Price of a control point in units of the variance: more than the 2 of AIC, for a free knot and a
 # free tangential place come with it. Measured on a loop (benchmarks.estimation): 2.5 / 3 / 3.5 / 5
-# leave an rms distance to the truth of 0.061 / 0.052 / 0.051 / 0.055 of a box diagonal of 100.
+# leave an rms distance to the truth of 0.061 / 0.052 / 0.051 / 0.055 of a box diagonal of 100
+# (LSQ-04).
 PENALTY = 3.5
 # Sizes tried grow by this factor, up to this part of the number of points; the search ends when so
 # many in a row were no better, but not before this size: an outline with many features shows

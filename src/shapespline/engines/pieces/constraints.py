@@ -19,19 +19,19 @@ class Constraints(NamedTuple):
 
     ``ends`` says whether an open curve begins and ends in the first and last point; ``through`` are
     indices of points that are nodes and stay where they are; ``tangents`` are directions at the
-    first and the last point, None where they are free; once stubs stand for them ``after_stub`` and
-    ``before_stub`` are the points where these end and begin.
+    first and the last point, None where they are free. Once virtual end extensions stand for them,
+    ``after_extension`` and ``before_extension`` are the points where these end and begin.
     """
 
     ends: bool = False
     through: IntArray = _NONE
     tangents: tuple[FloatArray | None, FloatArray | None] = (None, None)
-    after_stub: IntArray = _NONE
-    before_stub: IntArray = _NONE
+    after_extension: IntArray = _NONE
+    before_extension: IntArray = _NONE
 
     @property
     def anything(self) -> bool:
-        """Whether more is held than ends."""
+        """Whether more is kept than ends."""
         return len(self.through) > 0 or any(t is not None for t in self.tangents)
 
 

@@ -1,7 +1,7 @@
-"""Tangents at the ends of an outline, kept by straight stubs.
+"""Tangents at the ends of an outline, kept by virtual end extensions.
 
-Some points before the first one, in a row along the tangent: a line follows them and the curve must
-join it smoothly. The stub is cut off again.
+Some points stand before the first one, in a row along the tangent. A line follows them and the
+curve must join it smoothly. The extension is cut off again (PIE-15).
 """
 
 from __future__ import annotations
@@ -11,52 +11,52 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.engines.pieces.constraints import Constraints
-from shapespline.values import Contour
+from shapespline.values import SMOOTH_TURN, Contour
 
 if TYPE_CHECKING:
     from shapespline.engines.pieces.problem import PiecesProblem
     from shapespline.typing import FloatArray
     from shapespline.values import Piece
 
-# Points of a stub, and its length in tolerances.
-STUB_POINTS, STUB_TOLERANCES = 8, 20.0
+# Points of an extension, and its length in tolerances.
+N_EXTENSION, EXTENSION_LENGTH = 8, 20.0
 # Tangents that the search has brought so near, radians, are made exact; that is verified later.
-NEARLY = np.radians(3.0)
+NEARLY = 3.0 * SMOOTH_TURN
 
 
-def stubbed(outline: PiecesProblem) -> PiecesProblem:
-    """The outline with a straight stub at each end whose tangent is held."""
-    begin, end = outline.constraints.tangents
+def extended(problem: PiecesProblem) -> PiecesProblem:
+    """The problem with a straight extension at each end whose tangent is kept."""
+    begin, end = problem.constraints.tangents
     if begin is None and end is None:
-        return outline
-    contour = outline.normalized.contour
-    along = STUB_TOLERANCES * outline.tolerance * np.arange(1, STUB_POINTS + 1) / STUB_POINTS
+        return problem
+    contour = problem.normalized.contour
+    along = EXTENSION_LENGTH * problem.tolerance * np.arange(1, N_EXTENSION + 1) / N_EXTENSION
     parts = [contour.points]
     if begin is not None:
         parts.insert(0, contour.points[0] - along[::-1, None] * begin)
     if end is not None:
         parts.append(contour.points[-1] + along[:, None] * end)
-    shift = STUB_POINTS if begin is not None else 0
+    shift = N_EXTENSION if begin is not None else 0
     n, points = len(contour), np.concatenate(parts)
     first = np.array([] if begin is None else [shift], dtype=np.int64)
     last = np.array([] if end is None else [shift + n - 1], dtype=np.int64)
     at = np.concatenate([first, last])
-    gentle = np.ones(len(points), dtype=np.int64)
-    gentle[shift : shift + n] = outline.low_turn
-    through = np.union1d(outline.constraints.through + shift, at)
-    held = Constraints(True, through, after_stub=first, before_stub=last)
-    return outline._replace(
-        normalized=outline.normalized._replace(contour=Contour.trusted(points, closed=False)),
-        corners=np.setdiff1d(outline.corners + shift, at),
-        low_turn=gentle,
-        constraints=held,
+    low_turn = np.ones(len(points), dtype=np.int64)
+    low_turn[shift : shift + n] = problem.low_turn
+    through = np.union1d(problem.constraints.through + shift, at)
+    constraints = Constraints(True, through, after_extension=first, before_extension=last)
+    return problem._replace(
+        normalized=problem.normalized._replace(contour=Contour.trusted(points, closed=False)),
+        corners=np.setdiff1d(problem.corners + shift, at),
+        low_turn=low_turn,
+        constraints=constraints,
     )
 
 
-def without_stubs(pieces: tuple[Piece, ...], outline: PiecesProblem) -> tuple[Piece, ...]:
-    """The pieces between the first and the last point of an outline that was stubbed."""
-    begin, end = outline.constraints.tangents
-    points = outline.normalized.contour.points
+def without_extensions(pieces: tuple[Piece, ...], problem: PiecesProblem) -> tuple[Piece, ...]:
+    """The pieces between the first and the last point of a problem that was extended."""
+    begin, end = problem.constraints.tangents
+    points = problem.normalized.contour.points
     if pieces and begin is not None:
         starts = np.array([piece.control_points[0] for piece in pieces])
         pieces = pieces[int(((starts - points[0]) ** 2).sum(axis=1).argmin()) :]

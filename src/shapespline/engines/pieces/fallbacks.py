@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from shapespline.engines.pieces.problem import PiecesProblem
     from shapespline.values import Contour
 
-# A polyline whose joints turn less than corners for more than this part follows a curve.
+# A polyline whose joints turn less than corners for more than this part follows a curve (PIE-23).
 LOW_TURN_PART = 0.5
-# Of the joints between lines that stand for a curve so many turn less than corners.
+# Of the joints between lines that stand for a curve so many turn less than corners (FIT-09).
 FACETS_PART = 0.25
 
 

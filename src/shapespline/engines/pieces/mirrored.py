@@ -21,8 +21,9 @@ LARGEST_PART = 0.2
 ON_AXIS = 4.0
 # Points nearer to a crossing along the outline, in parts of its length, are that crossing.
 CLOSE = 1e-6
-# Two lines that turn less at the axis are one, radians.
-STRAIGHT = 1e-6
+# Two lines that turn less at the axis are one, radians: more than rounding, for the axis itself is
+# found to some digits only; less than any joint that was drawn.
+SAME_LINE_TURN = 1e-6
 
 
 class MirroredHalf(NamedTuple):
@@ -101,7 +102,7 @@ def _without_split_pieces(pieces: list[Piece]) -> tuple[Piece, ...]:
 
 def _united(a: Piece, b: Piece) -> list[Piece]:
     """One piece instead of two where they go on with the same velocity, else both."""
-    if a.degree != b.degree or not abs(turn_between(a, b)) < STRAIGHT:
+    if a.degree != b.degree or not abs(turn_between(a, b)) < SAME_LINE_TURN:
         return [a, b]
     if a.degree == 1:
         return [a._replace(control_points=np.array([a.control_points[0], b.control_points[-1]]))]

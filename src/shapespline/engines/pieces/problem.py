@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.analysis import GENTLE_TURN, NormalizedContour, find_corners
+from shapespline.analysis import LOW_TURN, NormalizedContour, find_corners
 from shapespline.engines.pieces.constraints import Constraints
 from shapespline.errors import InvalidInputError
 
@@ -63,7 +63,7 @@ class PiecesProblem(NamedTuple):
                     f"corners must be 'auto', 'free', None or indices, got {corners!r}"
                 )
             found = find_corners(normalized.contour, aim)
-            low_turn = (found.turns < GENTLE_TURN).astype(np.int64)
+            low_turn = (found.turns < LOW_TURN).astype(np.int64)
             return cls(normalized, aim, found.indices, low_turn, constraints)
         given = np.asarray(corners)
         if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):

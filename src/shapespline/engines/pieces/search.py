@@ -9,7 +9,7 @@ import numpy as np
 
 from shapespline import _kernels
 from shapespline.analysis import LEAST_TURN
-from shapespline.engines.pieces.end_tangents import stubbed, without_stubs
+from shapespline.engines.pieces.end_tangents import extended, without_extensions
 from shapespline.engines.pieces.tangents import aligned
 from shapespline.values import Piece
 
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from shapespline.monitor import Monitor
     from shapespline.typing import Effort, FloatArray
 
-# Candidate nodes on a whole outline, whatever the stride.
+# Candidate nodes on a whole outline, whatever the stride (PIE-23).
 LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
-# Pieces shorter than this part of the curve are roundings.
-SPECK = 1e-12
+# Pieces shorter than this part of the curve are degenerate: roundings.
+DEGENERATE_PART = 1e-12
 # A corner that the fit turns by less than this part of what makes a corner is given up.
 RELEASE = 0.7
 # Control points may move by this part of the tolerance to make a tangent exact: it is less than
@@ -32,7 +32,7 @@ LARGEST_MOVE = 0.002
 # The same for a fit to noisy points, in standard deviations of the noise.
 OBSERVED_MOVE = 0.1
 # What the kernel is told about the joint at a point, summed.
-CORNER, PINNED, AFTER_STUB, BEFORE_STUB = 1, 2, 4, 8
+CORNER, PINNED, AFTER_EXTENSION, BEFORE_EXTENSION = 1, 2, 4, 8
 
 
 class SearchBudget(NamedTuple):
@@ -53,7 +53,7 @@ class SearchBudget(NamedTuple):
 
 
 # The reduction is a greedy search, and where it starts is worth some percent: the best of several
-# runs on different candidates is taken.
+# runs on different candidates is taken (PIE-01).
 BUDGETS: dict[Effort, tuple[SearchBudget, ...]] = {
     "fast": (SearchBudget(12, 0.8, 5, 1, thorough=False),),
     "balanced": (SearchBudget(12, 0.4, 1, 6, thorough=True),),
@@ -69,7 +69,7 @@ class PiecesSolver(NamedTuple):
     """What stays the same over the runs on one outline.
 
     Corners are candidate nodes always and nodes if they are kept; ``smooth`` makes other joints
-    tangent, where the outline is gentle at the price of some more points.
+    tangent, where the data have a low turn at the price of some more points.
     """
 
     problem: PiecesProblem
@@ -89,7 +89,7 @@ class PiecesSolver(NamedTuple):
 
         No pieces if it was ended before there were any.
         """
-        outline = stubbed(self.problem)
+        outline = extended(self.problem)
         contour = outline.normalized.contour
         n = len(contour)
         joints, forced = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
@@ -97,8 +97,8 @@ class PiecesSolver(NamedTuple):
         if self.keep_corners:
             joints[outline.corners] += CORNER
         joints[outline.constraints.through] += PINNED
-        joints[outline.constraints.after_stub] += AFTER_STUB
-        joints[outline.constraints.before_stub] += BEFORE_STUB
+        joints[outline.constraints.after_extension] += AFTER_EXTENSION
+        joints[outline.constraints.before_extension] += BEFORE_EXTENSION
         forced[joints > 0] = 1
         settings = _kernels.PiecesSettings(
             tolerance=tolerance,
@@ -127,7 +127,7 @@ class PiecesSolver(NamedTuple):
         if self.smooth and pieces:
             largest_move = LARGEST_MOVE * tolerance if observed is None else OBSERVED_MOVE * noise
             pieces = aligned(pieces, largest_move, closed=contour.closed)
-        return without_stubs(pieces, self.problem)
+        return without_extensions(pieces, self.problem)
 
 
 def n_points_of(pieces: Sequence[Piece]) -> int:
@@ -147,13 +147,13 @@ def _unpacked(
         kind = "line" if degree == 1 else "bezier" if inner == 0 else "spline"
         pieces.append(Piece(kind, degree, knots[k : k + count + degree + 1], points[m : m + count]))
         k, m = k + count + degree + 1, m + count
-    return _without_specks(pieces)
+    return _without_degenerate_pieces(pieces)
 
 
-def _without_specks(pieces: list[Piece]) -> tuple[Piece, ...]:
+def _without_degenerate_pieces(pieces: list[Piece]) -> tuple[Piece, ...]:
     """The pieces but for those of next to no length, whose neighbours then meet exactly."""
     lengths = [piece.polygon_length for piece in pieces]
-    least = SPECK * sum(lengths)
+    least = DEGENERATE_PART * sum(lengths)
     kept = [p for p, length in zip(pieces, lengths, strict=True) if length > least]
     if len(kept) < len(pieces):
         for before, after in pairwise(kept):

@@ -7,20 +7,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.geometry import turn_between
+from shapespline.values import SMOOTH_TURN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from shapespline.values import Piece
 
-# Pieces whose directions differ by less, radians, may be made to meet in one tangent exactly.
-ALIGNED = np.radians(1.001)
+# Pieces whose directions differ by less, radians, may be made to meet in one tangent exactly: what
+# the kernel has brought within the degree, and its rounding.
+ALIGNED = 1.001 * SMOOTH_TURN
 
 
 def aligned(pieces: Sequence[Piece], largest_move: float, *, closed: bool) -> tuple[Piece, ...]:
     """The pieces with nearly common tangents made exactly common.
 
-    At a node that turns by less than a degree the control points beside it are moved onto one
+    At a node that is smooth, to a degree, the control points beside it are moved onto one
     line: that of a straight piece, or the mean direction of two curves. Where that moves one by
     more than ``largest_move``, in data units, the node keeps its small turn.
     """

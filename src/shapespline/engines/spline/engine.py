@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 EXTENT = 100.0
 # Gaps of a fair curve: corners need some as small as the tolerance, long straight runs large ones.
 # Measured: 0.02 / 0.04 / 0.06 / 0.1 / 0.15 at tolerances 0.1 and 0.5 give 834 / 810 / 807 / 800 /
-# 794 control points over 26 fits.
+# 794 control points over 26 fits (SPL-01).
 LEAST_GAP = (0.015, 0.2)
 LEAST_GAP_TOLERANCES = 1.5
 FREE_GAPS = (1e-3, 150.0)
@@ -50,6 +50,8 @@ def _effort(n_side: int, *stages: tuple[int, int, bool, float]) -> _kernels.Remo
     return _kernels.RemovalEffort(n_side, [_kernels.FitStage(*stage) for stage in stages])
 
 
+# Stages: half of p, iterations, whether knot intervals are free, and the largest distance in
+# tolerances to go on with (SPL-06).
 _RANK = _effort(3, (1, 1, False, inf))
 _REMOVE_QUICKLY = _effort(4, (1, 3, False, 6.0), (3, 8, True, 2.0), (6, 15, True, inf))
 _REMOVE = _effort(4, (1, 6, False, 6.0), (3, 8, True, 2.5), (6, 25, True, inf))
@@ -72,6 +74,7 @@ class _Level(NamedTuple):
     worth_retrying: float = inf
 
 
+# What each effort spends (SPL-02, SPL-07).
 LEVELS = {
     "fast": _Level(_REMOVE_QUICKLY, 0, [], 4.0, worth_trying=6.0),
     "balanced": _Level(_REMOVE, 1, [0, 2], 8.0, worth_retrying=2.0),

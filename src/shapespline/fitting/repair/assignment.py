@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 # Curves are looked at as polylines within this part of their tolerance.
 SAMPLING_PART = 0.02
 # A node lies between two of the points whose arc length is this near to its own, in parts of the
-# piece before it and in tolerances.
+# piece before it and in tolerances (FIT-13).
 ALONG, TOLERANCES = 0.3, 4.0
 
 

@@ -54,7 +54,7 @@ class Step(NamedTuple):
 
 
 # Where the pieces alone are not enough a node is to blame, which goes with both of its pieces. The
-# last two follow the points as they came, closer.
+# last two follow the points as they came, closer (FIT-11).
 STEPS = (
     Step(3 / 4, 0, True),
     Step(3 / 4, 1, True),

@@ -15,7 +15,7 @@ import numpy as np
 from shapespline.fitting.repair.assignment import AssignedPiece, PieceAssignment, located, pieces_of
 from shapespline.fitting.verify import verified_fit
 from shapespline.geometry import joined, turn_between
-from shapespline.values import Contour
+from shapespline.values import SMOOTH_TURN, Contour
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -27,9 +27,6 @@ if TYPE_CHECKING:
 
     # The points of a window, of its row and trail, as they are to be fitted.
     Aim = Callable[[PieceAssignment, Sequence[AssignedPiece], DataRun], FloatArray]
-
-# Joints that turn less than this, radians, are smooth.
-SMOOTH = np.radians(1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,10 +130,10 @@ def _tangents(row: PieceAssignment, window: Window) -> Tangents:
     pieces, closed = [part.piece for part in row.parts], row.fit.closed
     begin, end = window.begin, window.end
     tangents: list[FloatArray | None] = [None, None]
-    if (begin > 0 or closed) and abs(turn_between(pieces[begin - 1], pieces[begin])) < SMOOTH:
+    if (begin > 0 or closed) and abs(turn_between(pieces[begin - 1], pieces[begin])) < SMOOTH_TURN:
         tangents[0] = np.diff(pieces[begin].control_points[:2], axis=0)[0]
     after = pieces[end % len(pieces)]
-    if (end < len(pieces) or closed) and abs(turn_between(pieces[end - 1], after)) < SMOOTH:
+    if (end < len(pieces) or closed) and abs(turn_between(pieces[end - 1], after)) < SMOOTH_TURN:
         tangents[1] = np.diff(pieces[end - 1].control_points[-2:], axis=0)[0]
     return tangents[0], tangents[1]
 

@@ -27,15 +27,17 @@ if TYPE_CHECKING:
 CHORD = 8
 FEWEST_SAMPLES = 400
 # Density of knots: a constant and the root of the curvature in units of the box diagonal. Measured
-# on four outlines: exponents 0.33 to 0.7 and constants 0.3 to 3 differ by less than the rounds do.
+# on four outlines: exponents 0.33 to 0.7 and constants 0.3 to 3 differ by less than the rounds do
+# (LSQ-02).
 BEND_EXPONENT = 0.5
-# Rounds of fitting and spreading again, and how strongly the error counts in them.
+# Rounds of fitting and spreading again, and how strongly the error counts in them (LSQ-02).
 ROUNDS = 6
 ERROR_EXPONENT = 0.4
 LEAST_ERROR = 0.05
 ROUND_LIMITS = Limits(max_iterations=30, relative_decrease=1e-3)
 # Weight of the residuals that hold the curve on the data polyline: at 0.01 it still strays, from
-# 0.1 the distance from curve to data comes down to that from data to curve; 1 slows convergence.
+# 0.1 the distance from curve to data comes down to that from data to curve; 1 slows convergence
+# (LSQ-01).
 STRAY_WEIGHT = 0.1
 
 
