@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 
 # Samples beside which the nearest point is looked for.
 BRANCHES = 4
+# Pairs of a point and a side that are tried without a tree.
+FEW = 20_000
+# Parts that are looked at for a point, more of them only where these leave a doubt.
+NEAREST = (3, 12, 48)
 # Parts of all segments of a polyline together, at most, for each of its segments.
 PARTS = 4
 TINY = 1e-300
@@ -47,32 +51,56 @@ def two_sided(curve: Any, points: Array, *, closed: bool, step: float) -> TwoSid
 def distance_to_polyline(points: Array, polyline: Array) -> Array:
     """Distance of each point to a polyline, shape (k,).
 
-    Segments are cut into parts, and found by the middles of the parts through a k-d tree. A part
-    farther than the nearest few is at least so far away as the last of those, less half its own
-    length. Where that leaves a doubt, every part within reach is tried.
+    Sides are cut into parts, and found by the middles of the parts through a k-d tree. A part
+    beyond the nearest few is at least so far away as the last of those, less half its own length.
+    Where that leaves a doubt, more of them are tried, at last every part within reach.
     """
-    begin, along = polyline[:-1], np.diff(polyline, axis=0)
-    length = np.hypot(*along.T)
-    longest = length.sum() / (PARTS * len(begin))
-    counts = np.maximum(np.ceil(length / max(longest, TINY)), 1).astype(int)
-    owner = np.repeat(np.arange(len(begin)), counts)
-    share = np.concatenate([(np.arange(n) + 0.5) / n for n in counts])
-    half = 0.5 * float((length / counts).max())
-    tree = cKDTree(begin[owner] + share[:, None] * along[owner])
+    sides = _Sides(polyline[:-1], np.diff(polyline, axis=0))
+    n = len(sides.begin)
+    if n * len(points) <= FEW:
+        every = sides.distances(np.repeat(points, n, axis=0), np.tile(np.arange(n), len(points)))
+        return every.reshape(len(points), n).min(axis=1)
+    owner, middles, half = sides.parts()
+    tree = cKDTree(middles)
+    best, doubtful = np.full(len(points), np.inf), np.arange(len(points))
+    for n_near in NEAREST:
+        n_near = min(n_near, len(owner))
+        away, near = tree.query(points[doubtful], k=range(1, n_near + 1))
+        for parts in near.T:
+            found = sides.distances(points[doubtful], owner[parts])
+            best[doubtful] = np.minimum(best[doubtful], found)
+        doubtful = doubtful[best[doubtful] > away[:, -1] - half]
+        if not len(doubtful) or n_near == len(owner):
+            return best
+    for index in doubtful:
+        around = owner[tree.query_ball_point(points[index], best[index] + half * (1 + 1e-9))]
+        if len(around):
+            found = sides.distances(points[index], np.unique(around))
+            best[index] = min(best[index], found.min())
+    return best
 
-    def to_segment(point: Array, segment: NDArray[np.int_]) -> Array:
-        offset, side = point - begin[segment], along[segment]
+
+class _Sides(NamedTuple):
+    """Sides of a polyline: where they begin, and the way along them."""
+
+    begin: Array
+    along: Array
+
+    def distances(self, points: Array, which: NDArray[np.int_]) -> Array:
+        """Distance of each point to one side."""
+        offset, side = points - self.begin[which], self.along[which]
         at = (offset * side).sum(axis=1) / np.maximum((side**2).sum(axis=1), TINY)
         return np.hypot(*(offset - np.clip(at, 0, 1)[:, None] * side).T)
 
-    n_near = min(BRANCHES, len(owner))
-    away, near = tree.query(points, k=range(1, n_near + 1))
-    best = np.min([to_segment(points, owner[parts]) for parts in near.T], axis=0)
-    for index in np.flatnonzero(best > away[:, -1] - half) if n_near < len(owner) else ():
-        around = owner[tree.query_ball_point(points[index], best[index] + half * (1 + 1e-9))]
-        if len(around):
-            best[index] = min(best[index], to_segment(points[index], np.unique(around)).min())
-    return best
+    def parts(self) -> tuple[NDArray[np.int_], Array, float]:
+        """Side and middle of every part, and half the length of the longest."""
+        length = np.hypot(*self.along.T)
+        longest = length.sum() / (PARTS * len(length))
+        counts = np.maximum(np.ceil(length / max(longest, TINY)), 1).astype(int)
+        owner = np.repeat(np.arange(len(length)), counts)
+        share = np.concatenate([(np.arange(n) + 0.5) / n for n in counts])
+        middles = self.begin[owner] + share[:, None] * self.along[owner]
+        return owner, middles, 0.5 * float((length / counts).max())
 
 
 def distance_to_curve(points: Array, curve: Any, step: float) -> Array:

@@ -42,7 +42,7 @@ def sampled_distances(curve, contour, step):
 def assert_bound(curve, contour):
     """Certified is no less than what any sample has, and no more than 0.1 % above it."""
     found = two_sided_distance(curve, contour)
-    sampled = sampled_distances(curve, contour, contour.box_diagonal / 2000)
+    sampled = sampled_distances(curve, contour, contour.box_diagonal / 500)
     rounding = 64 * EPS * max(np.abs(contour.points).max(), np.abs(curve.control_points).max())
     assert found.reverse_distance >= sampled.reverse - rounding
     floor = FLOOR * contour.box_diagonal
