@@ -19,8 +19,8 @@ import numpy as np
 from scipy.interpolate import BSpline, make_smoothing_spline, splprep
 
 import shapespline as ss
-from benchmarks.outside_metric import distance_to_curve
 from benchmarks.quality import LARGE, own_corpus
+from checks import distance_to_curve
 from shapespline.analysis.noise import noise_level
 
 if TYPE_CHECKING:

@@ -18,8 +18,8 @@ import numpy as np
 from scipy.interpolate import BSpline, splprep
 
 import shapespline as ss
-from benchmarks.outside_metric import distance_to_curve, two_sided
 from benchmarks.paper_runs import NEAR_ITS_END, first_within
+from checks import distance_to_curve, two_sided
 from shapespline.engines.least_squares.problem import CurveProblem
 from shapespline.paper.run import run_paper, timed_start
 from shapespline.solvers.iteration import Limits

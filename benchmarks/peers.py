@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy.interpolate import BSpline, make_splprep, splprep
 
-from benchmarks.outside_metric import Array, two_sided
+from checks import two_sided
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from checks.curves import Array
 
 # Bisections of the smoothing factor, from tolerance^2 times these.
 STEPS = 12

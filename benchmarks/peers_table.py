@@ -2,7 +2,7 @@
 
     python -m benchmarks.peers_table
 
-Every curve is checked by the sampler of outside_metric.py. Times are medians, and the ratio is to
+Every curve is checked by the outside checker. Times are medians, and the ratio is to
 one call of splprep at its best s on the same data in the same run.
 """
 
@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import shapespline as ss
 from benchmarks.foundation import outline
-from benchmarks.outside_metric import two_sided
 from benchmarks.peers import (
     Peer,
     make_splprep_points,
@@ -22,6 +21,7 @@ from benchmarks.peers import (
     polyline_points,
     splprep_points,
 )
+from checks import two_sided
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -8,7 +8,7 @@
     python -m benchmarks.quality --figures F  also pictures of the worst ten fits, to be looked at
     python -m benchmarks.quality --pin        write the sizes on the own corpus that CI holds
 
-Every curve is checked by the sampler of outside_metric.py, which shares nothing with the package.
+Every curve is checked by the outside checker, which shares nothing with the package.
 """
 
 from __future__ import annotations
@@ -26,10 +26,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 import shapespline as ss
-from benchmarks.outside_metric import two_sided
 from benchmarks.peers import polyline_points, splprep_points
 from benchmarks.worst_fits import draw_worst
-from shapespline.geometry.joining import turn_between
+from checks import turns, two_sided
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -134,12 +133,12 @@ def measure(outline: Outline, percent: float, *, peers: bool, **options: object)
 def joints(fit: ss.Fit) -> tuple[int, int]:
     """Joints beside a curve, and those that turn a little; one spline has none."""
     pieces = fit.sections
-    turns = [
-        abs(float(np.degrees(turn_between(pieces[k - 1], pieces[k]))))
-        for k in range(0 if fit.closed else 1, len(pieces))
-        if max(pieces[k - 1].degree, pieces[k].degree) > 1
-    ]
-    return len(turns), sum(LITTLE[0] < turn < LITTLE[1] for turn in turns)
+    if not pieces:
+        return 0, 0
+    degree = np.array([piece.degree for piece in pieces])
+    beside = np.maximum(degree, np.roll(degree, 1))[0 if fit.closed else 1 :] > 1
+    turn = np.degrees(np.abs(turns(pieces, closed=fit.closed)))[beside]
+    return len(turn), int(((turn > LITTLE[0]) & (turn < LITTLE[1])).sum())
 
 
 def report(rows: list[Row]) -> None:

@@ -31,7 +31,7 @@ import shapespline as ss
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from benchmarks.outside_metric import Array
+    from checks.curves import Array
 
 ROOT = Path(__file__).parent.parent
 LARGE = ROOT.parent / "shared" / "data"

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tests.support.shapes import moved
 
+from checks import turns
 from shapespline import Contour, fit_curve
-from shapespline.geometry.joining import turn_between
 
 # A turn below the first is a smooth joint; corners turn more than the second.
 SMOOTH, CORNER = 1.01, 10.0
@@ -46,10 +46,8 @@ def test_joints_of_clean_outlines_are_corners_or_smooth(all_outlines):
         if "_n" in name:
             continue  # rougher than the tolerance: lines take over, and turn as the data do
         fit = fit_curve(contour, tolerance=0.002 * contour.box_diagonal, effort="fast")
-        pieces = fit.pieces
-        for i in range(0 if fit.closed else 1, len(pieces)):
-            turn = abs(np.degrees(turn_between(pieces[i - 1], pieces[i])))
-            assert turn <= SMOOTH or turn >= CORNER, name
+        turn = np.abs(np.degrees(turns(fit.pieces, closed=fit.closed)))
+        assert ((turn <= SMOOTH) | (turn >= CORNER)).all(), name
 
 
 def test_a_polyline_drawn_with_lines_is_lines():

@@ -4,8 +4,8 @@ import warnings
 
 import numpy as np
 import pytest
-from benchmarks.outside_metric import two_sided
 
+from checks import two_sided
 from shapespline import Contour, DroppedPointsWarning, Status, fit_curve
 from shapespline.fitting.request import tolerance_length
 

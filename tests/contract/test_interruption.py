@@ -6,10 +6,10 @@ import time
 
 import numpy as np
 import pytest
-from benchmarks.outside_metric import two_sided
 from numpy.testing import assert_array_equal
 from tests.support.shapes import flower
 
+from checks import two_sided
 from shapespline import Contour, InvalidInputError, Status, fit_curve
 
 

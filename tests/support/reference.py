@@ -144,55 +144,6 @@ def cpda(points, length, closed):
     return signed, unsigned
 
 
-# --- distances ---------------------------------------------------------------------------------
-
-
-def distances_to_polyline(points, vertices):
-    """Distance of each point to the nearest segment, every pair tried."""
-    p, a, b = np.asarray(points)[:, None], vertices[None, :-1], vertices[None, 1:]
-    d = b - a
-    length_sq = (d**2).sum(-1)
-    along = ((p - a) * d).sum(-1) / np.where(length_sq > 0, length_sq, 1)
-    foot = a + np.clip(along, 0, 1)[..., None] * d
-    return np.sqrt(((p - foot) ** 2).sum(-1)).min(axis=1)
-
-
-class Sampled(NamedTuple):
-    """Two-sided distance by dense sampling, and what lies between two samples at most.
-
-    ``forward`` (n,) is too large by ``slack`` at most, ``reverse`` too small by it.
-    """
-
-    forward: np.ndarray
-    reverse: float
-    slack: float
-
-
-def sampled_distances(curve, contour, per_span=200):
-    """Distances between a curve and a contour, all samples against all segments.
-
-    No curve point is farther from a sample than half a step at the largest speed, which the
-    control points of the derivative bound.
-    """
-    u = np.unique(
-        [
-            np.linspace(a, b, per_span + 1)
-            for a, b in zip(curve.breakpoints, curve.breakpoints[1:], strict=False)
-        ]
-    )
-    dense = curve(u)
-    if curve.periodic:
-        dense[-1] = dense[0]
-    forward = np.array([np.sqrt(((dense - q) ** 2).sum(axis=1).min()) for q in contour.points])
-    reverse = max(
-        distances_to_polyline(part, contour.polyline).max()
-        for part in np.array_split(dense, 1 + len(dense) // 500)
-    )
-    _, velocity = differentiated(curve.knots, curve.coefficients, curve.degree)
-    speed = float(np.sqrt((velocity.astype(float) ** 2).sum(axis=1)).max())
-    return Sampled(forward, float(reverse), 0.5 * float(np.diff(u).max()) * speed)
-
-
 # --- the least-squares problem -----------------------------------------------------------------
 
 

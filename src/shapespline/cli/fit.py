@@ -112,6 +112,7 @@ class FitFile:
                 never_the_input(source, picture)
 
 
+# long: typer makes an option of the command of every parameter.
 @options.gathers(reading=options.Reading, writing=options.Writing)
 def fit(
     sources: options.Inputs,

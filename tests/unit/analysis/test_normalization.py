@@ -4,10 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from tests.support.reference import distances_to_polyline
 from tests.support.scattered import noisy_walk
 from tests.support.shapes import flower, on_circle, rectangle
 
+from checks import distance_to_polyline
 from shapespline import Contour, _kernels
 from shapespline.analysis.normalization import (
     FEWEST_POINTS,
@@ -45,9 +45,9 @@ def test_both_polylines_lie_within_the_distance(points, distance):
     # Each chord by its own stretch of the data, so that a point far along the outline is no excuse.
     for a, b in pairwise(kept):
         stretch = points[a : b + 1]
-        assert distances_to_polyline(stretch, points[[a, b]]).max() <= enough
+        assert distance_to_polyline(stretch, points[[a, b]]).max() <= enough
         chord = points[a] + share * (points[b] - points[a])
-        assert distances_to_polyline(chord, stretch).max() <= enough
+        assert distance_to_polyline(chord, stretch).max() <= enough
 
 
 def test_no_chord_is_too_long_and_marks_stay():

@@ -5,15 +5,8 @@ import pytest
 from numpy.testing import assert_array_equal
 from tests.support.scattered import rose
 
+from checks import distance_to_polyline
 from shapespline.analysis.run_averages import averaged, averages, strayed
-
-
-def polyline_distance(points, polyline):
-    """By brute force."""
-    begin, side = polyline[:-1], np.diff(polyline, axis=0)
-    at = ((points[:, None] - begin) * side).sum(axis=2) / (side**2).sum(axis=1)
-    foot = begin + np.clip(at, 0, 1)[:, :, None] * side
-    return np.hypot(*np.moveaxis(points[:, None] - foot, 2, 0)).min(axis=1)
 
 
 @pytest.mark.parametrize("closed", [True, False])
@@ -28,10 +21,10 @@ def test_averages_lie_as_near_as_they_say(closed, noise):
     nodes, data = found.nodes, points
     if closed:
         nodes, data = (np.concatenate([a, a[:1]]) for a in (nodes, data))
-    assert polyline_distance(points, nodes).max() <= found.off * (1 + 1e-12)
+    assert distance_to_polyline(points, nodes).max() <= found.off * (1 + 1e-12)
     share = np.linspace(0, 1, 9)[:, None, None]
     dense = (nodes[:-1] + share * np.diff(nodes, axis=0)).reshape(-1, 2)
-    assert polyline_distance(dense, data).max() <= found.off * (1 + 1e-12)
+    assert distance_to_polyline(dense, data).max() <= found.off * (1 + 1e-12)
 
 
 def test_what_strays_is_seen():

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from benchmarks.outside_metric import two_sided
+from tests.support.promise import checked
 from tests.support.shapes import flower, moved, wave
 
 from shapespline import Contour, InvalidInputError, Status, fit_curve
@@ -28,12 +28,6 @@ def true_wave_tangents():
     return tangents
 
 
-def assert_promise(fit, contour, tolerance=TOLERANCE):
-    found = two_sided(fit.curve, contour.points, closed=contour.closed, step=tolerance / 10)
-    assert fit.status == Status.KEPT
-    assert found.larger <= tolerance
-
-
 def angle_bound(fit):
     """Rounding of coordinates up to 20 over the arm that makes a direction."""
     ends = fit.spline.control_points
@@ -53,7 +47,7 @@ def test_end_tangents_are_exact(angle, which, backwards):
         points, wanted = points[::-1], (-end, -begin)
     wanted = tuple(t if on else None for t, on in zip(wanted, which, strict=True))
     fit = fit_curve(points, closed=False, tolerance=TOLERANCE, end_tangents=wanted)
-    assert_promise(fit, fit.contour)
+    checked(fit, TOLERANCE)
     for found, asked in zip(end_directions(fit), wanted, strict=True):
         if asked is not None:
             assert found == pytest.approx(direction(asked), abs=angle_bound(fit))
@@ -75,7 +69,7 @@ def test_a_tangent_that_the_tolerance_forbids_is_said_to_be_missed():
 def test_the_curve_goes_through_points(contour):
     through = [7, 150, 151, 400]
     fit = fit_curve(contour, tolerance=TOLERANCE, through=through)
-    assert_promise(fit, contour)
+    checked(fit, TOLERANCE)
     nodes = np.array([piece.control_points[0] for piece in fit.pieces])
     for point in contour.points[through]:
         assert (nodes == point).all(axis=1).any()
@@ -96,7 +90,7 @@ def test_through_many_of_many_points():
     contour = flower(20_000)
     through = np.arange(0, 20_000, 1000)
     fit = fit_curve(contour, tolerance=TOLERANCE, through=through)
-    assert_promise(fit, contour)
+    checked(fit, TOLERANCE)
     nodes = np.array([piece.control_points[0] for piece in fit.pieces])
     distances = np.hypot(*(nodes[:, None] - contour.points[through]).T)
     assert (distances.min(axis=1) == 0).all()
@@ -139,6 +133,6 @@ def test_semi_closed_outlines_have_end_tangents_too():
     loop = flower(600).polyline
     contour = Contour(loop, closed=False)
     fit = fit_curve(contour, tolerance=TOLERANCE, end_tangents=((0, 1), (0, 1)))
-    assert_promise(fit, contour)
+    checked(fit, TOLERANCE)
     for found in end_directions(fit):
         assert found == pytest.approx([0, 1], abs=angle_bound(fit))

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
-from tests.support import reference
 from tests.support.shapes import flower
 
+from checks import sampling_error, two_sided
 from shapespline import (
     Contour,
     DegenerateContourError,
@@ -39,12 +39,15 @@ def test_equal_count_beats_the_best_joint_fit_known(outline, name, count, rms, f
 def test_the_reported_distances_are_those_of_a_dense_sampling(outline, name):
     contour = outline(name)
     fit = fit_curve(contour, n_control_points=24)
-    forward, reverse, slack = reference.sampled_distances(fit.spline, contour)
+    step = contour.box_diagonal / 2000
+    found = two_sided(fit.curve, contour.points, closed=contour.closed, step=step)
+    slack = sampling_error(fit.curve, step)
+    rounding = 64 * np.finfo(float).eps * np.abs(contour.points).max()
     # A sample is at most the slack away from the nearest curve point, and never nearer than it.
-    assert forward.max() - slack <= fit.max_distance <= forward.max() * (1 + 1e-12)
-    assert reverse <= fit.hausdorff_distance
+    assert found.forward - slack <= fit.max_distance <= found.forward + rounding
+    assert found.reverse <= fit.hausdorff_distance
     # Tight to 0.1 % of the true distance, which lies between the samples.
-    assert fit.hausdorff_distance <= 1.001 * max(forward.max(), reverse + slack)
+    assert fit.hausdorff_distance <= 1.001 * max(found.forward, found.reverse + slack)
 
 
 def test_a_closed_fit_is_periodic_and_an_open_one_meets_its_ends():

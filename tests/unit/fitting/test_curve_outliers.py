@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from benchmarks.outliers import contaminated
-from benchmarks.outside_metric import two_sided
 from numpy.testing import assert_array_equal
 from tests.support.shapes import flower
 
+from checks import two_sided
 from shapespline import Contour, Drawing, InvalidInputError, Status, fit_curve, read, write
 
 

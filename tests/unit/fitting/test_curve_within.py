@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 from tests.support.engines import fit_pieces
-from tests.support.promise import checked
+from tests.support.promise import assert_turns_with_the_data, checked
 from tests.support.shapes import flower
 
 from shapespline import Contour, InvalidInputError, fit_curve
@@ -13,15 +13,8 @@ from shapespline.fitting.request import tolerance_length
 
 def test_joints_turn_at_corners_only(outline):
     fit = fit_curve(outline("hand620_closed"), tolerance=0.1)
-    pieces, breakpoints = fit.spline.beziers()
-    before = np.roll(pieces[:, -1] - pieces[:, -2], 1, axis=0)
-    after = pieces[:, 1] - pieces[:, 0]
-    turn = np.abs(
-        np.arctan2(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(1))
-    )
-    smooth = ~np.isin(breakpoints[:-1], fit.corners)
-    assert np.degrees(turn[smooth]).max() <= 1.01
-    assert 8 <= len(fit.corners) <= 20
+    n_sharp = assert_turns_with_the_data(fit.pieces, fit.contour, 0.1)
+    assert 8 <= len(fit.corners) == n_sharp <= 20
 
 
 def test_pieces_are_the_curve(outline):

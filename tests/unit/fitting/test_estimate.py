@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial import cKDTree
 from tests.support.shapes import flower, shaken
 
+from checks import distance_to_curve
 from shapespline import Contour, fit_curve
 from shapespline.analysis.resolution import BOX_PARTS, resolution
 from shapespline.engines.least_squares import smooth_start
@@ -16,9 +17,9 @@ SEEDS = range(10)
 
 
 def rms_to(truth, fit):
-    """Root mean square distance of dense points of the truth from the curve, densely sampled."""
-    curve = fit.spline(np.linspace(0, 1, 20_000))
-    return float(np.sqrt((cKDTree(curve).query(truth.resampled(2000).points)[0] ** 2).mean()))
+    """Root mean square distance of dense points of the truth from the curve."""
+    off = distance_to_curve(truth.resampled(2000).points, fit.curve, truth.length / 20_000)
+    return float(np.sqrt((off**2).mean()))
 
 
 # --- accuracy ----------------------------------------------------------------------------------

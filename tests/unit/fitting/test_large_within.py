@@ -5,11 +5,11 @@ import sys
 
 import numpy as np
 import pytest
-from benchmarks.outside_metric import two_sided
 from numpy.testing import assert_array_equal
 from tests.support.scattered import N, rose
 
 import shapespline as ss
+from checks import two_sided
 from shapespline.streaming.stream import CHUNK
 
 

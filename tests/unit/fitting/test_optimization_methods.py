@@ -9,9 +9,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
-from tests.support.reference import EPS, sampled_distances
+from tests.support.reference import EPS
 from tests.support.shapes import Start, flower, wave
 
+from checks import two_sided
 from shapespline.engines.least_squares import METHODS
 from shapespline.fitting import optimize
 from shapespline.paper.initial import initial_curve
@@ -47,8 +48,9 @@ def assert_honest(fit, contour):
         assert record.paper_error == pytest.approx(error, rel=4 * EPS)
     assert fit.kept == (fit.hausdorff_distance <= fit.tolerance)
     assert str(fit.status) == fit.status.value != ""
-    sampled = sampled_distances(fit.spline, contour, per_span=40)
-    assert fit.hausdorff_distance >= max(sampled.reverse, fit.max_distance) - rounding
+    step = contour.box_diagonal / 500
+    found = two_sided(fit.curve, contour.points, closed=contour.closed, step=step)
+    assert fit.hausdorff_distance >= found.larger - rounding
 
 
 def assert_gains_half(fit, best):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from benchmarks.outside_metric import two_sided
 from numpy.testing import assert_array_equal
 from tests.support.engines import fit_pieces
 from tests.support.maps import cells, wavy
@@ -12,9 +11,8 @@ from tests.support.places import IMAGES
 from tests.support.shapes import on_circle
 
 import shapespline as ss
+from checks import crossings, polyline_of, self_crossings, two_sided
 from shapespline.analysis.shared_boundaries import shared_arcs
-from shapespline.geometry.flattening import sampled
-from shapespline.geometry.intersections import crossing_pairs, self_crossings
 
 
 def area(fit):
@@ -96,9 +94,9 @@ def test_curves_of_uncrossed_lines_do_not_cross():
     low = ss.Contour(np.column_stack([x, np.sin(x)]), closed=False)
     high = ss.Contour(np.column_stack([x, np.sin(x) + gap + 0.02 * np.cos(9 * x)]), closed=False)
     apart = [ss.fit_curve(contour, tolerance=tolerance) for contour in (low, high)]
-    assert crossing_pairs([fit.spline(np.linspace(0, 1, 4000)) for fit in apart])  # else no test
+    assert crossings(*(polyline_of(fit.curve, 0.02) for fit in apart))  # else no test
     drawing = ss.fit_shape(ss.Shape([low, high]), tolerance=tolerance)
-    assert not crossing_pairs([fit.spline(np.linspace(0, 1, 4000)) for fit in drawing])
+    assert not crossings(*(polyline_of(fit.curve, 0.02) for fit in drawing))
     for fit in drawing:
         assert fit.kept
         assert fit.tolerance == tolerance
@@ -110,9 +108,9 @@ def test_slits_stay_open_at_the_price_of_the_pieces_beside_them():
     (contour,) = picture
     searched = fit_pieces(contour, 1.5)
     (fit,) = ss.fit_shape(picture, tolerance=1.5)
-    assert self_crossings(sampled(searched.spline, 0.03)[0].polyline) > 0
+    assert self_crossings(polyline_of(searched.pieces, 0.15)) > 0
     assert self_crossings(contour.polyline) == 0
-    assert self_crossings(sampled(fit.spline, 0.01)[0].polyline) == 0
+    assert self_crossings(polyline_of(fit.curve, 0.05)) == 0
     assert fit.kept
     assert fit.tolerance == 1.5
     found = two_sided(fit.curve, contour.points, closed=True, step=0.15)

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from tests.support.arcs import on_segment
 from tests.support.make_fit import blob, wave
 from tests.support.pieces import bezier, square
-from tests.support.pieces_check import polyline_distances
 from tests.support.shapes import moved, random_curve
 
 import shapespline as ss
+from checks import distance_to_polyline
 from shapespline.errors import InvalidInputError
 from shapespline.formats.elliptic import elliptical_arc
 from shapespline.geometry.biarcs import arc_polyline
@@ -35,7 +35,7 @@ def two_sided(curve, found, n=1500):
         [on_segment(*s, max(8, n // found.n_segments)) for s in segments(found)]
     )
     step = max(np.hypot(*np.diff(line, axis=0).T).max() for line in (mine, theirs))
-    return polyline_distances(mine, theirs).max(), polyline_distances(theirs, mine).max(), step
+    return distance_to_polyline(mine, theirs).max(), distance_to_polyline(theirs, mine).max(), step
 
 
 def directions(segment):
@@ -134,8 +134,8 @@ def test_the_promise_adds_up(outline):
     fit = ss.fit_curve(contour, tolerance=1.0)
     found = arc_polyline(fit.spline, 0.25, closed=True)
     line = np.concatenate([on_segment(*segment, 60) for segment in segments(found)])
-    assert polyline_distances(contour.points, line).max() <= 1.25 + 0.01
-    assert polyline_distances(line, contour.polyline).max() <= 1.25
+    assert distance_to_polyline(contour.points, line).max() <= 1.25 + 0.01
+    assert distance_to_polyline(line, contour.polyline).max() <= 1.25
 
 
 @pytest.mark.parametrize("tolerance", [0, -1.0, float("nan"), float("inf"), "fine", 1e-18])

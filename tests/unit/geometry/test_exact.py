@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 from tests.support.pieces import bezier, square
-from tests.support.pieces_check import polyline_distances, sampled
 from tests.support.shapes import random_curve
 
+from checks import distance_to_polyline, polyline_of
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.geometry.exact import exact_fit
 from shapespline.geometry.flattening import COARSEST, LONGEST_STEP, SAMPLING
@@ -40,8 +40,8 @@ def test_the_polyline_follows_the_pieces(seed, n_pieces, closed, sampling):
     """By dense samples of the pieces, by scipy: curve to polyline within what is reported."""
     pieces = random_pieces(seed, n_pieces, closed)
     fit = exact_fit(pieces, sampling=sampling)
-    dense = np.concatenate([sampled(piece, 150) for piece in pieces])
-    assert polyline_distances(dense, fit.contour.polyline).max() <= fit.hausdorff_distance
+    dense = polyline_of(pieces)
+    assert distance_to_polyline(dense, fit.contour.polyline).max() <= fit.hausdorff_distance
     assert fit.hausdorff_distance <= sampling * 1.001 + 1e-9 * fit.contour.box_diagonal
     assert fit.max_distance < 1e-11
     assert fit.kept

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.interpolate import BSpline
 from tests.support.engines import fit_pieces
-from tests.support.pieces_check import chord_error, end_gaps, sampled, sampled_distances
+from tests.support.promise import ROUNDING, SMOOTH, assert_turns_with_the_data
 from tests.support.shapes import flower, moved, on_circle, rectangle, wave
 
-from shapespline.engines.pieces.fallbacks import turns_of
+from checks import distance_to_polyline, gaps, polyline_of, turns, two_sided
 from shapespline.errors import InvalidInputError
 from shapespline.values.contour import Contour
 
@@ -26,23 +25,19 @@ FREE = {"hand620_closed": (48, 29), "leaf840_closed": (60, 36),
 
 def check_promise(result, contour):
     """Both distances by dense samples; the pieces end to end."""
-    forward, reverse = sampled_distances(result, contour)
+    step = result.tolerance / 10
+    found = two_sided(result.pieces, contour.points, closed=contour.closed, step=step)
     assert result.kept
-    assert reverse <= result.tolerance
-    assert forward <= result.tolerance + chord_error(result)
-    assert max(end_gaps(result), default=0.0) == 0.0
+    assert found.larger <= result.tolerance + ROUNDING * contour.box_diagonal
+    assert not gaps(result.pieces, closed=result.closed).any()
 
 
 def check_export(result):
     """The one B-spline runs through the same points, piece by piece."""
-    whole = result.spline
-    u = np.linspace(0, 1, 4001)
-    dense = BSpline(whole.knots, whole.control_points, whole.degree)(u)
-    size = np.abs(whole.control_points).max()
-    fine = np.concatenate([sampled(piece, 2000) for piece in result.pieces])
-    steps = np.hypot(*np.diff(fine, axis=0).T).max()
-    gaps = np.array([np.hypot(*(fine - p).T).min() for p in dense[::40]])
-    assert gaps.max() <= steps + 1e-12 * size
+    whole, step = result.spline, result.tolerance / 10
+    one, many = polyline_of(whole, step), polyline_of(result.pieces, step)
+    # Points of either lie on the other: near its chords, which its bends leave by less than a step.
+    assert max(distance_to_polyline(one, many).max(), distance_to_polyline(many, one).max()) <= step
     assert whole.domain == (0.0, 1.0)
 
 
@@ -63,10 +58,7 @@ def test_peers_keep_the_promise_with_few_points(outline, name, corners):
 def test_joints_that_are_no_corners_are_tangent(outline, name):
     contour = outline(name)
     result = fit_pieces(contour, 0.001 * contour.box_diagonal)
-    turns = np.abs(np.degrees(list(turns_of(result.pieces, result.closed))))
-    assert ((turns < 1.01) | (turns > 1.01)).all()
-    sharp = int((turns > 1.01).sum())
-    assert len(result.corners) <= sharp
+    assert_turns_with_the_data(result.pieces, contour, result.tolerance)
 
 
 def test_a_line_stays_one_line():
@@ -94,7 +86,7 @@ def test_a_stadium_keeps_its_sides_straight_and_its_joints_smooth():
     result = fit_pieces(contour, 0.02)
     check_promise(result, contour)
     assert len(result.corners) == 0
-    assert max(map(abs, turns_of(result.pieces, closed=True))) < np.radians(1.01)
+    assert np.abs(turns(result.pieces, closed=True)).max() < SMOOTH
 
 
 @pytest.mark.parametrize("degree", range(1, 10))
@@ -107,12 +99,18 @@ def test_every_degree_keeps_the_promise(degree):
     assert max(piece.degree for piece in result.pieces) <= min(degree, 3)
 
 
-def test_given_corners_are_nodes():
-    contour = flower()
-    result = fit_pieces(contour, 0.05, corners=[0, 120])
+def test_corners_that_are_named_are_nodes_and_make_none():
+    contour, named = rectangle(60, 40), [0, 60, 100, 160]
+    result = fit_pieces(contour, 0.05, corners=named)
     check_promise(result, contour)
-    plain = fit_pieces(contour, 0.05, corners=None)
-    check_promise(plain, contour)
+    nodes = np.array([piece.control_points[0] for piece in result.pieces])
+    for corner in contour.points[named]:
+        assert np.hypot(*(nodes - corner).T).min() <= 0.05
+    # Named where the outline is smooth, or none at all: nothing turns.
+    for corners in ([0, 120], None):
+        smooth = fit_pieces(flower(), 0.05, corners=corners)
+        check_promise(smooth, flower())
+        assert np.abs(turns(smooth.pieces, closed=True)).max() < SMOOTH
 
 
 @pytest.mark.parametrize("effort", ["fast", "balanced", "smallest"])

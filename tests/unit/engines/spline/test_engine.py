@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from benchmarks.scale import wiggly
-from scipy.spatial import cKDTree
 from tests.support.engines import fit_spline
+from tests.support.promise import ROUNDING
 from tests.support.shapes import flower, moved, on_circle, rectangle, wave
 
+from checks import report, two_sided
 from shapespline.analysis import NormalizedContour
 from shapespline.engines.spline import Fairness, attempts, engine, fairness_of
 from shapespline.engines.spline.fairness import GAP_RATIO, SPEED_RATIO
@@ -73,36 +72,12 @@ def test_many_bends_are_not_cut_across_by_the_first_knots(n):
     assert attempt.counts["accepted"] < attempt.curve.n_control_points / 4
 
 
-def dense(curve, per_span=400):
-    """Points of a curve by SciPy's evaluation, which shares nothing with the search."""
-    breaks = curve.breakpoints
-    u = np.concatenate(
-        [np.linspace(a, b, per_span, endpoint=False) for a, b in itertools.pairwise(breaks)]
-        + [breaks[-1:]]
-    )
-    return u, curve.to_scipy()(u)
-
-
-def segment_distances(points, a, b):
-    """Distance of each point to the nearest of all segments a b."""
-    along = b - a
-    length_sq = np.maximum((along**2).sum(axis=1), 1e-300)
-    best = np.full(len(points), np.inf)
-    for i in range(len(a)):
-        s = np.clip(((points - a[i]) @ along[i]) / length_sq[i], 0, 1)
-        best = np.minimum(best, np.hypot(*(points - a[i] - s[:, None] * along[i]).T))
-    return best
-
-
 def assert_promise(fit, contour):
-    """Both distances by dense samples, which may exceed the tolerance by their own chords only."""
+    """Both distances by the outside checker."""
     assert fit.kept
-    _, samples = dense(fit.spline)
-    chord = np.hypot(*np.diff(samples, axis=0).T).max()
-    nearest, _ = cKDTree(samples).query(contour.points)
-    assert (nearest <= np.hypot(fit.tolerance, chord)).all()
-    polyline = contour.polyline
-    assert segment_distances(samples, polyline[:-1], polyline[1:]).max() <= fit.tolerance
+    step = fit.tolerance / 10
+    found = two_sided(fit.spline, contour.points, closed=contour.closed, step=step)
+    assert found.larger <= fit.tolerance + ROUNDING * contour.box_diagonal
 
 
 @pytest.mark.parametrize(("name", "relative", "most"), MOST_POINTS)
@@ -112,17 +87,13 @@ def test_few_points_keep_the_promise_and_the_product_rule(outline, name, relativ
     fit = fit_spline(contour, relative * contour.box_diagonal)
     assert_promise(fit, contour)
     assert fit.n_control_points <= most
-    gaps = np.diff(fit.spline.breakpoints)
-    assert gaps.max() <= GAP_RATIO * gaps.min() * (1 + 1e-9)
-    u, _ = dense(fit.spline)
-    speed = np.hypot(*fit.spline.to_scipy().derivative()(u).T)
-    weight = np.append(np.repeat(gaps, 400), 0.0)
-    order = np.argsort(speed)
-    middle = np.searchsorted(np.cumsum(weight[order]), 0.5 * weight.sum())
-    assert speed.min() >= 0.99 * SPEED_RATIO * speed[order][middle]
-    rule = fairness_of(fit.spline, contour)
-    assert rule.kept
-    assert rule.n_crossings == rule.n_data_crossings
+    found = report(fit.spline, contour.points, closed=contour.closed, tolerance=fit.tolerance)
+    assert found.gap_ratio <= GAP_RATIO * (1 + 1e-9)
+    # Samples of the two lie elsewhere.
+    assert found.speed_ratio >= 0.99 * SPEED_RATIO
+    assert found.crossings == found.data_crossings
+    assert found.hooks == 0
+    assert fairness_of(fit.spline, contour).kept
 
 
 @pytest.mark.parametrize("degree", [1, 2, 3, 4, 5])

@@ -6,23 +6,22 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from benchmarks.outside_metric import two_sided
 from tests.support import shapes
 from tests.support.engines import fit_pieces
 from tests.support.places import IMAGES
 from tests.support.shapes import airfoil, ribbon
 
 import shapespline as ss
+from checks import polyline_of, self_crossings, two_sided
 from shapespline.fitting.repair.crossings import _no_larger_than_data
 from shapespline.fitting.verify import verified_fit
-from shapespline.geometry.flattening import sampled
-from shapespline.geometry.intersections import crossing_pairs, self_crossings
+from shapespline.geometry.intersections import crossing_pairs
 from shapespline.geometry.joining import joined
 from shapespline.values.piece import Piece
 
 
 def crossings(fit, tolerance):
-    return self_crossings(sampled(fit.spline, 0.01 * tolerance)[0].polyline)
+    return self_crossings(polyline_of(fit.pieces, tolerance / 10))
 
 
 SLITS = [

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from benchmarks.outside_metric import two_sided
 
 import shapespline as ss
+from checks import two_sided
 from shapespline.fitting.repair.weights import Limits, weighted
 from shapespline.geometry.nearest import nearest
 

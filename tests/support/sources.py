@@ -1,0 +1,57 @@
+"""The package's sources, and what they import when."""
+
+from __future__ import annotations
+
+import ast
+
+from tests.support.places import ROOT
+
+PACKAGE = ROOT / "src" / "shapespline"
+SOURCES = sorted(PACKAGE.rglob("*.py"))
+
+
+def module_name(path):
+    """Dotted name below the package, '' for the package itself."""
+    parts = path.relative_to(PACKAGE).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {module_name(path): path for path in SOURCES}
+
+
+class Imports(ast.NodeVisitor):
+    """Every import of a file: (module, name or None, when): 'load', 'call' or 'types'."""
+
+    def __init__(self):
+        self.found = []
+        self.when = "load"
+
+    def _within(self, when, nodes):
+        before, self.when = self.when, when if self.when != "types" else "types"
+        for node in nodes:
+            self.visit(node)
+        self.when = before
+
+    def visit_FunctionDef(self, node):
+        self._within("call", node.body)
+
+    def visit_AsyncFunctionDef(self, node):
+        self._within("call", node.body)
+
+    def visit_If(self, node):
+        typed = ast.unparse(node.test) in ("TYPE_CHECKING", "typing.TYPE_CHECKING")
+        self._within("types" if typed else self.when, node.body)
+        self._within(self.when, node.orelse)
+
+    def visit_Import(self, node):
+        self.found += [(alias.name, None, self.when) for alias in node.names]
+
+    def visit_ImportFrom(self, node):
+        assert node.level == 0, "write absolute imports"
+        self.found += [(node.module, alias.name, self.when) for alias in node.names]
+
+
+def imports(path):
+    visitor = Imports()
+    visitor.visit(ast.parse(path.read_text(encoding="utf-8")))
+    return visitor.found
