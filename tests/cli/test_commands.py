@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from tests.support.command_line import one_line
 from tests.support.places import DATA
+from tests.support.shapes import flower
 
 import shapespline as ss
 
@@ -299,3 +300,16 @@ def test_no_argument_shows_the_help(shapespline):
     code, out, err = shapespline()
     assert (code, err) == (0, "")
     assert out.startswith("Usage: ")
+
+
+def test_a_folder_with_pictures_is_many_inputs_for_every_part(shapespline, tmp_path):
+    sources, results, pictures = (tmp_path / name for name in ("in", "out", "pics"))
+    for folder in (sources, results, pictures):
+        folder.mkdir()
+    for name in ("a", "b"):
+        np.savetxt(sources / f"{name}.csv", flower(120).points, delimiter=",")
+    arguments = ["-o", results, "--format", "svg", "--plot", pictures, "--tolerance", "0.1"]
+    code, _, err = shapespline("fit", sources, *arguments)
+    assert (code, err) == (0, "")
+    assert sorted(path.name for path in results.iterdir()) == ["a.svg", "b.svg"]
+    assert sorted(path.name for path in pictures.iterdir()) == ["a.csv.png", "b.csv.png"]

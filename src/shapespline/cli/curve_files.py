@@ -80,7 +80,7 @@ def trace(
 ) -> None:
     """Write the outlines of pictures, or of other files, as polylines: nothing is fitted."""
     run_files(
-        TraceFile(reading, writing),
+        lambda _: TraceFile(reading, writing),
         Batch(
             sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
         ),
@@ -103,7 +103,7 @@ def convert(
 ) -> None:
     """Write the curves of drawings in another format: the same curves, nothing is fitted."""
     run_files(
-        ConvertFile(reading, writing),
+        lambda _: ConvertFile(reading, writing),
         Batch(
             sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
         ),

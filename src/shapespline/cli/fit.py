@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 from pathlib import Path  # noqa: TC003 - typer reads annotations
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -21,11 +21,13 @@ if TYPE_CHECKING:
 
     import numpy as np
 
+    from shapespline.fitting import Settings
+
 # Bytes of an array file from which on it is passed over, not read at once, where nothing is asked
 # that needs all points.
 LARGE_FILE = 32_000_000
 WANTED = {"tolerance", "n_control_points"}
-IN_PASSES = WANTED | {"degree", "corners", "form", "effort", "ends", "time_limit"}
+IN_PASSES = WANTED | {"degree", "corners", "form", "effort", "time_limit"}
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,8 @@ class FitFile:
 
     reading: options.Reading
     writing: options.Writing
-    fitting: dict[str, Any]
+    settings: Settings
+    shared_boundaries: bool
     plot: Path | None
     many: bool
 
@@ -42,9 +45,11 @@ class FitFile:
         """Report of the file."""
         large = self.mapped(source)
         if large is None:
-            shape = self.reading.outlines(source, self.fitting["tolerance"])
+            shape = self.reading.outlines(source, self.settings.tolerance)
             began = time.perf_counter()
-            drawing = ss.fit_shape(shape, **self.fitting)
+            drawing = ss.fit_shape(
+                shape, shared_boundaries=self.shared_boundaries, **self.settings.to_dict()
+            )
         else:
             began = time.perf_counter()
             drawing = self.fitted_in_passes(large)
@@ -64,8 +69,8 @@ class FitFile:
 
     def mapped(self, source: Path) -> np.memmap | None:
         """The points of a file that is too large to be read at once, if there is no other need."""
-        asked = {name for name, value in self.fitting.items() if value not in (None, False)}
-        if self.plot is not None or self.fitting["ends"] != "free":
+        asked = set(self.settings.to_dict())
+        if self.plot is not None or self.shared_boundaries:
             return None
         if not (asked & WANTED and asked <= IN_PASSES):
             return None
@@ -83,7 +88,7 @@ class FitFile:
 
     def fitted_in_passes(self, points: np.memmap) -> ss.Drawing:
         """The fit of one outline of any number of points."""
-        options = {name: self.fitting[name] for name in IN_PASSES if name != "ends"}
+        options = self.settings.to_dict()
         with point_progress() as progress:
             fit = ss.fit_large(points, closed=self.reading.closed, progress=progress, **options)
         return ss.Drawing([fit])
@@ -187,21 +192,24 @@ def fit(
     batch = Batch(
         sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
     )
-    fitting = {
-        "tolerance": tolerance,
-        "n_control_points": control_points,
-        "degree": degree,
-        "corners": None if corners == "none" else corners,
-        "form": form,
-        "effort": effort,
-        "ends": ends,
-        "symmetric": symmetric,
-        "outliers": outliers,
-        "time_limit": time_limit,
-        "shared_boundaries": shared_boundaries,
-    }
+    from shapespline.fitting import Settings
 
-    def check(found: Sequence[Path]) -> None:
-        FitFile(reading, writing, fitting, plot, many=len(found) > 1).check(found)
+    settings = Settings(
+        tolerance=tolerance,
+        n_control_points=control_points,
+        degree=degree,
+        corners=None if corners == "none" else corners,
+        form=form,
+        effort=effort,
+        ends=ends,
+        symmetric=symmetric,
+        outliers=outliers,
+        time_limit=time_limit,
+    )
 
-    run_files(FitFile(reading, writing, fitting, plot, many=len(sources) > 1), batch, check)
+    def work_on(found: Sequence[Path]) -> FitFile:
+        work = FitFile(reading, writing, settings, shared_boundaries, plot, many=len(found) > 1)
+        work.check(found)
+        return work
+
+    run_files(work_on, batch)

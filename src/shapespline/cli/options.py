@@ -117,7 +117,7 @@ class Reading:
         """What the file holds."""
         return ss.read(path, sampling=sampling, **self.given())
 
-    def outlines(self, path: Path, tolerance: str | None = None) -> Shape:
+    def outlines(self, path: Path, tolerance: float | str | None = None) -> Shape:
         """The outlines in the file; of a drawing those that it was fitted to.
 
         Exact curves are sampled to a small part of the tolerance that they are to be fitted to.

@@ -35,11 +35,12 @@ class Batch:
 
 
 def run_files(
-    work: Callable[[Path, Path], Report],
-    batch: Batch,
-    check: Callable[[Sequence[Path]], None] = lambda sources: None,
+    work_on: Callable[[Sequence[Path]], Callable[[Path, Path], Report]], batch: Batch
 ) -> None:
-    """Work on every input and show each report; ``check`` may refuse the sources before.
+    """Work on every input and show each report.
+
+    ``work_on`` is given the files that were found, of which it may refuse to work on any, and
+    returns what to do with each.
 
     Raises
     ------
@@ -55,7 +56,7 @@ def run_files(
             raise ss.InvalidInputError(
                 f"standard output takes one drawing, got {len(sources)} inputs; name a folder"
             )
-        check(sources)
+        work = work_on(sources)
         pairs = list(
             zip(sources, places.outputs(sources, output, batch.ending, batch.writing), strict=True)
         )

@@ -114,12 +114,13 @@ class Settings:
             raise InvalidInputError(
                 "end_tangents, through and symmetric act within a tolerance: give one"
             )
-        for other in ("n_control_points", "weights"):
-            if not within and getattr(self, other) is not None:
-                self._refuse(("corners", "form", "effort"), f"with {other}")
+        if sized:
+            self._refuse(("corners", "form", "effort"), "with n_control_points")
+        elif self.weights is not None and not within:
+            self._refuse(("corners", "effort"), "with weights and no tolerance")
+        if self.form == "spline" and not isinstance(self.corners, str | None):
+            raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
         if self.form == "spline" and within:
-            if not isinstance(self.corners, str | None):
-                raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
             if self._has("end_tangents", "through"):
                 raise InvalidInputError("end_tangents and through act with form='pieces' only")
             if self.symmetric:
