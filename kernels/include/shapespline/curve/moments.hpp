@@ -52,7 +52,9 @@ struct WeighedFunction {
     BasisFunction<Degree> xx{}, xy{}, yy{};
 
     WeighedFunction() = default;
-    WeighedFunction(const SpanMoments<Degree> &moments, const BasisFunction<Degree> &f) {
+    // Of SpanMoments, or of anything else with xx, xy and yy.
+    template <class Moments>
+    WeighedFunction(const Moments &moments, const BasisFunction<Degree> &f) {
         for (int p = 0; p <= Degree; ++p)
             for (int q = 0; q <= Degree; ++q) {
                 xx[q] += f[p] * moments.xx[p + q];

@@ -1,8 +1,7 @@
 // A run of Levenberg-Marquardt steps (Nielsen 1999; Madsen, Nielsen and Tingleff 2004, 3.16).
 //
 // Step for step and bit for bit what solvers/levenberg_marquardt.py and solvers/iteration.py do
-// with a CurveProblem, whose constants and stopping tests these are: a test compares both. Here 300
-// points take 50 us a step and no call from Python, there 100 us and three.
+// with a CurveProblem, whose constants and stopping tests these are: a test compares both (KER-06).
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // A section: one line, Bezier or small spline of an outline, with the data it stands for.
 //
 // Inside the search a section is handled by the Taylor polynomials of its knot spans: points,
-// derivatives and normal equations all come from them, whatever the knots.
+// derivatives and normal equations all come from them, whatever the knots. They are not those of
+// curve/span_basis.hpp, in u in [-1, 1] and of a degree that is a constant: see KER-05.
 #pragma once
 
 #include <array>

@@ -60,7 +60,10 @@ inline void improve_feet(const SpanPolynomial *spans, int n_spans, const Vec2 *d
     }
 }
 
-// Distance from curve samples to the data polyline near the segment where they are expected.
+// Distance from curve samples to the data polyline near the segment where they are expected. The
+// feet, known already, bound most of it, and other segments than those around would be of another
+// branch: a check of its own beside those of distance/deviation.hpp, which asks all segments, and
+// spline/tracking.hpp, which has no feet (KER-05).
 class ReverseCheck {
   public:
     ReverseCheck(std::span<const Vec2> data, double tolerance)

@@ -9,6 +9,7 @@
 #include <array>
 #include <vector>
 
+#include "shapespline/curve/moments.hpp"
 #include "shapespline/pieces/section_feet.hpp"
 
 namespace shapespline::pieces {
@@ -50,7 +51,8 @@ class SectionNormal {
     }
 
   private:
-    // Rows of a length that processors add at once; the last number of some stays unused.
+    // Rows of a length that processors add at once; the last number of some stays unused. Powers
+    // are products of halves: not those of SpanMoments (KER-05).
     static constexpr int kPowers = 2 * kSectionTerms;
     using Powers = std::array<double, kPowers>;
     using Terms = std::array<double, kSectionTerms>;
@@ -89,34 +91,26 @@ class SectionNormal {
     template <int Degree>
     void add_points(const BasisTaylor &taylor, std::size_t s) {
         const Moments &m = moments_[s];
+        std::array<BasisFunction<Degree>, Degree + 1> basis;
+        for (int l = 0; l <= Degree; ++l)
+            for (int q = 0; q <= Degree; ++q) basis[l][q] = taylor[q][l];
         for (int l = 0; l <= Degree; ++l) {
-            Terms xx{}, xy{}, yy{};
-            double slope_x = 0.0, slope_y = 0.0;
-            for (int r = 0; r <= Degree; ++r) {
-                const double b = taylor[r][l];
-                slope_x += b * m.x[r];
-                slope_y += b * m.y[r];
-                for (int q = 0; q <= Degree; ++q) {
-                    xx[q] += m.xx[q + r] * b;
-                    xy[q] += m.xy[q + r] * b;
-                    yy[q] += m.yy[q + r] * b;
-                }
-            }
             const std::size_t row = 2 * (s + l);
+            double slope_x = 0.0, slope_y = 0.0;
+            for (int q = 0; q <= Degree; ++q) {
+                slope_x += basis[l][q] * m.x[q];
+                slope_y += basis[l][q] * m.y[q];
+            }
             gradient_[row] += slope_x;
             gradient_[row + 1] += slope_y;
+            const WeighedFunction<Degree> weighed(m, basis[l]);
             for (int other = 0; other <= l; ++other) {
-                double sum_xx = 0.0, sum_xy = 0.0, sum_yy = 0.0;
-                for (int q = 0; q <= Degree; ++q) {
-                    sum_xx += taylor[q][other] * xx[q];
-                    sum_xy += taylor[q][other] * xy[q];
-                    sum_yy += taylor[q][other] * yy[q];
-                }
+                const Weight2 block = weighed.times(basis[other]);
                 const std::size_t column = 2 * (s + other);
-                add(row, column, sum_xx);
-                add(row + 1, column, sum_xy);
-                if (other < l) add(row, column + 1, sum_xy);
-                add(row + 1, column + 1, sum_yy);
+                add(row, column, block.xx);
+                add(row + 1, column, block.xy);
+                if (other < l) add(row, column + 1, block.xy);
+                add(row + 1, column + 1, block.yy);
             }
         }
     }

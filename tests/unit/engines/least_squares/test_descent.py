@@ -105,9 +105,11 @@ def test_parameters_out_of_order_are_put_back_alike():
 
 def test_a_start_that_is_none_is_refused_alike():
     problem, x = curve_problem(False, 3)
-    x[0] = np.nan
-    with pytest.raises(InvalidInputError, match="finite"):
-        descend(LevenbergMarquardt(), problem, x, limits=Limits())
+    for at in (0, -1):  # a control point, a parameter
+        bad = x.copy()
+        bad[at] = np.nan
+        with pytest.raises(InvalidInputError, match="x0 must be finite"):
+            descend(LevenbergMarquardt(), problem, bad, limits=Limits())
     x[0] = 1e200
     with pytest.raises(InvalidInputError, match="failed at x0 with every damping"):
         descend(LevenbergMarquardt(), problem, x, limits=Limits())
