@@ -151,7 +151,7 @@ class CurveProblem:
         return Proposal(step, cost - predicted, gradient_norm)
 
     def metric_step(self, x: FloatArray, metric: Metric, damping: float) -> Proposal | None:
-        """Control points that a quadratic stand-in for the squared distances asks for.
+        """Control points that a quadratic model of the squared distances asks for.
 
         The parameters stay: `projected` finds them. None if the system has no solution.
         """

@@ -180,7 +180,7 @@ def _search(
     monitor: Monitor,
 ) -> _kernels.RemovalSearch:
     """The stages of one search, as many as the monitor allows."""
-    scaled = tolerance * normalized.scale - normalized.slack
+    scaled = tolerance * normalized.scale - normalized.error_used
     unit = normalized.extent / EXTENT
     low, high = (unit * gap for gap in LEAST_GAP)
     least = min(max(LEAST_GAP_TOLERANCES * scaled, low), high)
@@ -231,7 +231,7 @@ def _exported(
         knots[len(points) :] = 1.0  # rounding
         restored = normalized.restored_curve(BSplineCurve(knots, points, degree))
         points = restored.control_points.copy()
-        points[[0, -1]] = contour.points[[0, -1]]  # but for the rounding of the frame they are
+        points[[0, -1]] = contour.points[[0, -1]]  # but for rounding they are
         return BSplineCurve(restored.knots, points, degree)
     simple = (gaps > 0) & (np.roll(gaps, 1) > 0)
     seam = int(np.argmax(simple)) if simple.any() else int(np.argmax(gaps > 0))
