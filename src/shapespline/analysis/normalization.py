@@ -1,4 +1,8 @@
-"""The order and the unit in which a contour is fitted, whatever those it was given in."""
+"""The order and the unit in which a contour is fitted, whatever those it was given in.
+
+The order is a canonical form (the least rotation and direction in the dictionary), the unit a power
+of two. Thinning is cone intersection (Williams 1978), one pass over the points.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""Outliers of a contour: single points, or a few in a row, that jump off the path and back."""
+"""Outliers of a contour: single points, or a few in a row, that jump off the path and back.
+
+A run is compared with the segment between its neighbours, the worst first (sequential deletion), by
+order statistics of the steps near by.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nearest points on a curve."""
+"""Nearest points on a curve: branch and bound over Bezier pieces, Newton's method on each."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Knots for comparison: at dominant points, and equally spaced for equally spaced parameters.
 
-Both hold the parameters while they place the knots; `balance` is what fits of a given size start
-from otherwise.
+Both hold the parameters while they place the knots; fits of a given size start from error
+equidistribution otherwise.
 """
 
 from __future__ import annotations
