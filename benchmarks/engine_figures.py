@@ -233,7 +233,7 @@ def spline_stages() -> None:
         below.spines[["top", "right"]].set_visible(False)
         below.tick_params(labelsize=FONT_SIZE - 1)
         below.set_xlabel("span", fontsize=FONT_SIZE)
-    axes[1][0].set_ylabel("gap / smallest", fontsize=FONT_SIZE)
+    axes[1][0].set_ylabel("interval / smallest", fontsize=FONT_SIZE)
     save(figure, "spline-stages")
 
 
@@ -290,7 +290,7 @@ def estimation_size() -> None:
     noise = noise_level(contour)
     found = smoothed(contour, 3, noise, monitor=Monitor())
     sizes = [*range(4, 24), *range(24, 61, 4)]
-    runs = [_of_size(size, contour, 3, noise) for size in sizes]
+    runs = [_of_size(size, contour, 3, noise, monitor=Monitor()) for size in sizes]
     price = np.array([PENALTY * size for size in sizes])
     cost = np.array([run.cost for run in runs])
     figure, (left, right) = canvas(12.5, 4.8, 2)

@@ -104,7 +104,7 @@ def row(name: str, contour: ss.Contour, tolerance: float, effort: str, *, fair: 
         f"| {name} | {tolerance} | {effort} | {'yes' if fair else 'no'}"
         f" | {attempt.curve.n_control_points}"
         f" | {found.max_distance:.4f} | {found.reverse_distance:.4f}"
-        f" | {'' if kept else 'MISSED'} | {1e3 * seconds:.0f} | {report.gap_ratio:.0f}"
+        f" | {'' if kept else 'MISSED'} | {1e3 * seconds:.0f} | {report.interval_ratio:.0f}"
         f" | {report.speed_ratio:.3f} | {report.n_crossings} ({report.n_data_crossings}) |"
     )
 

@@ -74,7 +74,7 @@ def comment_of(name: str, path: Path) -> str:
     mark = "#" if path.suffix == ".py" else "//"
     lines = path.read_text("utf-8").splitlines()
     start = r"^(\w+, )*" if path.suffix == ".py" else r"\bconstexpr\b.*\b"
-    defined = re.compile(rf"{start}{name}\b(?!\.)[^=(]*=")
+    defined = re.compile(rf"{start}{name}\b(?!\.)[^=({{]*[={{]")
     at = next((i for i, line in enumerate(lines) if defined.search(line)), None)
     assert at is not None, f"{path.name} defines no {name}"
     said = [lines[at].partition(mark)[2]]

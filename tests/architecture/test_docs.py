@@ -66,6 +66,24 @@ def test_files_that_are_named_exist(page):
             assert any(place.exists() for place in places), name
 
 
+WORDS = {
+    word
+    for folder in ("src", "kernels", "tests", "benchmarks", "checks")
+    for path in (ROOT / folder).rglob("*")
+    if path.suffix in {".py", ".pyi", ".hpp", ".cpp"}
+    for word in re.findall(r"\w+", path.read_text("utf-8"))
+}
+
+
+@pytest.mark.parametrize("page", ABOUT_CODE, ids=label)
+def test_names_of_code_exist(page):
+    # `Class.method`, `Class::method`, `a_name(...)`: the last part is a word of some source.
+    text = re.sub(r"(?m)^(    .*|!\[.*)$", "", page.read_text("utf-8"))
+    for name in re.findall(r"`((?:\w+(?:\.|::))*\w+)(?:\([^`]*\))?`", text):
+        if not name.endswith((".py", ".hpp", ".cpp", ".md")):
+            assert re.split(r"\.|::", name)[-1] in WORDS, name
+
+
 @pytest.mark.parametrize(
     "room",
     [

@@ -1,7 +1,8 @@
 """Corners of a contour: where its direction jumps, at more than one length and above its noise.
 
 A line that runs into an arc is no corner: the two tangents at a point are those of parabolas
-fitted to either side of it, so that a bend of the outline itself does not count, only a jump.
+fitted to either side of it (one-sided local quadratic least squares), so that a bend of the outline
+itself does not count, only a jump.
 """
 
 from __future__ import annotations

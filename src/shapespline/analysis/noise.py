@@ -1,4 +1,8 @@
-"""The noise of a contour: what local cubics cannot follow across the outline."""
+"""The noise of a contour: what local cubics cannot follow across the outline.
+
+The cubics are those of Savitzky and Golay (1964); their residuals are read by a median, whose scale
+is that of chi-squared.
+"""
 
 from __future__ import annotations
 

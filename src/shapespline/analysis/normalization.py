@@ -1,4 +1,8 @@
-"""The order and the unit in which a contour is fitted, whatever those it was given in."""
+"""The order and the unit in which a contour is fitted, whatever those it was given in.
+
+The order is a canonical form (the least rotation and direction in the dictionary), the unit a power
+of two. Thinning is cone intersection (Williams 1978), one pass over the points.
+"""
 
 from __future__ import annotations
 
@@ -40,8 +44,9 @@ class NormalizedContour(NamedTuple):
     ``contour`` has its middle at the origin, a box diagonal between 64 and 128 (the scale is a
     power of two, exact), and an order that does not depend on where the data begin and which way
     they run. ``order`` (n,) are the indices of its points in the data. ``reversed`` tells that the
-    data run the other way; what is restored runs the way they do. A frame that was `thinned` holds
-    some of the points, or averages, and ``slack`` is how far its polyline lies from that of all.
+    data run the other way; what is restored runs the way they do. One that was `thinned` holds some
+    of the points, or averages, and ``error_used`` is how far its polyline lies from that of all: so
+    much of the tolerance is used.
 
     Examples
     --------
@@ -57,11 +62,11 @@ class NormalizedContour(NamedTuple):
     middle: FloatArray
     scale: float
     reversed: bool
-    slack: float = 0.0
+    error_used: float = 0.0
 
     @classmethod
     def of(cls, contour: Contour) -> NormalizedContour:
-        """The frame of a contour."""
+        """A contour normalized."""
         points = contour.points
         start, step = canonical_reading(points, closed=contour.closed)
         order = (start + step * np.arange(len(points))) % len(points)
@@ -79,45 +84,45 @@ class NormalizedContour(NamedTuple):
 
     @classmethod
     def of_working(cls, contour: Contour) -> NormalizedContour:
-        """The frame of a contour that is in the order and unit of one already."""
+        """A contour that is in canonical order and unit already."""
         return cls(contour, np.arange(len(contour)), np.zeros(2), 1.0, False)
 
     def thinned(self, tolerance: float, marked: IntArray) -> NormalizedContour:
-        """The frame without the points that a search within a tolerance does not need.
+        """The same without the points that a search within a tolerance does not need.
 
         Their distance from what is left is a small part of the tolerance, both ways, or the part
-        that many points scatter by; then averages stand for them. The frame is the same if few
-        would go. ``marked`` are indices into ``contour`` of points that stay.
+        that many points scatter by; then averages stand for them. If few would go, all stay.
+        ``marked`` are indices into ``contour`` of points that stay.
         """
-        work, slack = self.contour, THINNING * tolerance
+        work, error_used = self.contour, THINNING * tolerance
         if len(work) <= FEWEST_POINTS:
             return self
         marks = np.zeros(len(work.polyline), dtype=np.int64)
         marks[marked] = 1
-        kept = np.array(
-            _kernels.thinned(work.polyline, slack, LONGEST_CHORD * self.extent, marks),
+        kept_indices = np.array(
+            _kernels.thinned(work.polyline, error_used, LONGEST_CHORD * self.extent, marks),
             dtype=np.int64,
         )
         if work.closed:
-            kept = kept[:-1]
-        if len(kept) > MANY_POINTS:
+            kept_indices = kept_indices[:-1]
+        if len(kept_indices) > MANY_POINTS:
             found = averaged(work.points, work.closed, marked)
-            if found.off <= MOST_SCATTER * tolerance:
+            if found.error_bound <= MOST_SCATTER * tolerance:
                 return self._replace(
                     contour=Contour.trusted(found.nodes, work.closed, work.accuracy),
                     order=self.order[found.indices],
-                    slack=found.off,
+                    error_used=found.error_bound,
                 )
-        if len(kept) > WORTH_THINNING * len(work):
+        if len(kept_indices) > WORTH_THINNING * len(work):
             return self
         return self._replace(
-            contour=Contour.trusted(work.points[kept], work.closed, work.accuracy),
-            order=self.order[kept],
-            slack=slack,
+            contour=Contour.trusted(work.points[kept_indices], work.closed, work.accuracy),
+            order=self.order[kept_indices],
+            error_used=error_used,
         )
 
     def taken_over(self, contour: Contour) -> Contour:
-        """Another contour in the unit of this frame, in its own order."""
+        """Another contour in this unit, in its own order."""
         moved = (contour.points - self.middle) * self.scale
         accuracy = None if contour.accuracy is None else contour.accuracy * self.scale
         return Contour.trusted(moved, contour.closed, accuracy)
@@ -130,7 +135,7 @@ class NormalizedContour(NamedTuple):
 
     @property
     def place(self) -> IntArray:
-        """For every point of the data its index in ``contour``, shape (n,); of a whole frame."""
+        """For every point of the data its index in ``contour``, shape (n,), while all are there."""
         place = np.empty(len(self.order), dtype=np.int64)
         place[self.order] = np.arange(len(self.order))
         return place

@@ -1,4 +1,8 @@
-"""Outliers of a contour: single points, or a few in a row, that jump off the path and back."""
+"""Outliers of a contour: single points, or a few in a row, that jump off the path and back.
+
+A run is compared with the segment between its neighbours, the worst first (sequential deletion), by
+order statistics of the steps near by.
+"""
 
 from __future__ import annotations
 
@@ -52,14 +56,14 @@ def find_outliers(contour: Contour) -> IntArray:
     >>> find_outliers(Contour(circle, closed=True)).tolist()
     [20, 60, 61]
     """
-    kept = np.arange(len(contour))
+    kept_indices = np.arange(len(contour))
     least = SIGMAS * noise_level(contour)
-    while len(kept) > 2 * NEIGHBOURS + LONGEST_RUN - 1:
-        runs = _worst_runs(contour.points[kept], contour.closed, least)
+    while len(kept_indices) > 2 * NEIGHBOURS + LONGEST_RUN - 1:
+        runs = _worst_runs(contour.points[kept_indices], contour.closed, least)
         if not len(runs):
             break
-        kept = np.delete(kept, runs)
-    return np.setdiff1d(np.arange(len(contour)), kept)
+        kept_indices = np.delete(kept_indices, runs)
+    return np.setdiff1d(np.arange(len(contour)), kept_indices)
 
 
 def _worst_runs(points: FloatArray, closed: bool, least: float) -> IntArray:
@@ -87,11 +91,11 @@ def _scores(points: FloatArray, closed: bool, length: int, least: float) -> Floa
     before, after = points[index - 1], points[(index + length) % n]
     chord = after - before
     chord_sq = np.maximum((chord**2).sum(axis=1), np.finfo(float).tiny)
-    off = np.full(n, np.inf)
+    distance = np.full(n, np.inf)
     for k in range(length):
         at = points[(index + k) % n] - before
         share = np.clip((at * chord).sum(axis=1) / chord_sq, 0.0, 1.0)
-        off = np.minimum(off, np.hypot(*(at - share[:, None] * chord).T))
+        distance = np.minimum(distance, np.hypot(*(at - share[:, None] * chord).T))
     steps = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
     offsets = np.concatenate(
         [np.arange(-1 - NEIGHBOURS, -1), np.arange(length, length + NEIGHBOURS)]
@@ -105,7 +109,7 @@ def _scores(points: FloatArray, closed: bool, length: int, least: float) -> Floa
         nearby = np.nanquantile(around, 0.75, axis=1)
     # Where points are missing beside a run, the gap says how far apart they lie.
     apart = np.maximum(nearby, np.sqrt(chord_sq) / (length + 1))
-    score = off / np.maximum(np.maximum(STEPS * apart, least), np.finfo(float).tiny)
+    score = distance / np.maximum(np.maximum(STEPS * apart, least), np.finfo(float).tiny)
     if not closed:
         score[(index == 0) | (index + length >= n)] = 0.0
     return score

@@ -29,13 +29,13 @@ class Averages(NamedTuple):
     """Averages of a chunk of points.
 
     ``nodes`` (k, 2) are the averages, ``indices`` (k,) the points in the middle of their runs,
-    ``off`` how far points and segments lie apart at most. ``head`` and ``tail`` are the points of
-    the first two runs and of the last two, by which chunks are joined.
+    ``error_bound`` how far points and segments lie apart at most. ``head`` and ``tail`` are the
+    points of the first two runs and of the last two, by which chunks are joined.
     """
 
     nodes: FloatArray
     indices: IntArray
-    off: float
+    error_bound: float
     head: tuple[FloatArray, FloatArray]
     tail: tuple[FloatArray, FloatArray]
 
@@ -55,7 +55,7 @@ def averages(points: FloatArray, width: int, alone: IntArray | None = None) -> A
     >>> points = np.column_stack([np.arange(400.0), np.zeros(400)])
     >>> points[::2, 1] = 0.25
     >>> found = averages(points, 20)
-    >>> found.nodes[:2].tolist(), found.off
+    >>> found.nodes[:2].tolist(), found.error_bound
     ([[9.5, 0.125], [29.5, 0.125]], 0.125)
     """
     n_runs = max(4, len(points) // width)
@@ -66,11 +66,11 @@ def averages(points: FloatArray, width: int, alone: IntArray | None = None) -> A
         n_runs = len(begins)
     counts = np.diff([*begins, len(points)])
     nodes = np.add.reduceat(points, begins) / counts[:, None]
-    off = strayed(nodes, points, np.repeat(np.arange(n_runs), counts))
+    error_bound = strayed(nodes, points, np.repeat(np.arange(n_runs), counts))
     # Copies: a view would keep the whole chunk in memory.
     first, second = (p.copy() for p in np.split(points[: begins[2]], begins[1:2]))
     before, last = (p.copy() for p in np.split(points[begins[-2] :], [begins[-1] - begins[-2]]))
-    return Averages(nodes, begins + counts // 2, off, (first, second), (before, last))
+    return Averages(nodes, begins + counts // 2, error_bound, (first, second), (before, last))
 
 
 def best_width(scatters: Sequence[float]) -> int:
@@ -86,12 +86,14 @@ def averaged(points: FloatArray, closed: bool, alone: IntArray) -> Averages:
     """
     if not closed:
         alone = np.union1d(alone, [0, len(points) - 1])
-    scatters = [_closed_up(averages(points, width, alone), closed).off for width in WIDTHS]
+    scatters = [_closed_up(averages(points, width, alone), closed).error_bound for width in WIDTHS]
     return _closed_up(averages(points, best_width(scatters), alone), closed)
 
 
 def _closed_up(found: Averages, closed: bool) -> Averages:
-    return found._replace(off=max(found.off, joint(found, found))) if closed else found
+    return (
+        found._replace(error_bound=max(found.error_bound, joint(found, found))) if closed else found
+    )
 
 
 def joint(before: Averages, after: Averages) -> float:
@@ -127,11 +129,11 @@ def strayed(nodes: FloatArray, points: FloatArray, run: IntArray) -> float:
         at = segment[has]
         x, y = (points[has] - nodes[at]).T
         ux, uy = along[at].T
-        off, foot = x * uy - y * ux, x * ux + y * uy
-        if len(off):
-            farthest = max(farthest, float(np.abs(off).max()))
+        across, foot = x * uy - y * ux, x * ux + y * uy
+        if len(across):
+            farthest = max(farthest, float(np.abs(across).max()))
         beyond = np.maximum(0.0, np.maximum(-foot, foot - length[at]))
-        nearest_sq[has] = np.minimum(nearest_sq[has], off**2 + beyond**2)
+        nearest_sq[has] = np.minimum(nearest_sq[has], across**2 + beyond**2)
     inner = (run > 0) & (run < len(nodes) - 1)
     if inner.any():
         farthest = max(farthest, float(np.sqrt(nearest_sq[inner].max())))

@@ -1,4 +1,7 @@
-"""Straight runs of a contour: which parts of it were drawn as lines."""
+"""Straight runs of a contour: which parts of it were drawn as lines.
+
+Chords at two tolerances (cone intersection) tell a line from an arc: a line stays one chord.
+"""
 
 from __future__ import annotations
 

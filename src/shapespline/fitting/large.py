@@ -2,11 +2,11 @@
 
 Within a tolerance there are three. The first looks: bounds, ends, a sample for corners and noise.
 The second finds a polyline of few vertices that stands for all points, a small, proven distance
-away (stand_in.py). The search sees these vertices only, and keeps the tolerance less that distance,
-so that the promise holds for all points; the third measures every one of them against the curve.
-With a number of control points some passes between sum up normal equations (large_squares.py).
-What a pass brings home from a chunk is a few numbers or vertices, so chunks may lie on disk or on
-the machines of a cluster.
+away (`ProxyPolyline`). The search sees these vertices only, and keeps the tolerance less that
+distance, so that the promise holds for all points; the third measures every one of them against the
+curve. With a number of control points some passes between sum up normal equations
+(`least_squares`). What a pass brings home from a chunk is a few numbers or vertices, so chunks may
+lie on disk or on the machines of a cluster.
 """
 
 from __future__ import annotations
@@ -200,9 +200,9 @@ def _of_size(
 def _proxy(passes: Passes, seen: Seen, closed: bool, farthest: float) -> ProxyPolyline:
     """Vertices for points that lie so far from a curve at most: none need be nearer to them."""
     diagonal = float(np.hypot(*(seen.high - seen.low)))
-    aim = max(NEAR_ENOUGH * farthest, FINEST * diagonal)
+    distance = max(NEAR_ENOUGH * farthest, FINEST * diagonal)
     while True:
         try:
-            return ProxyPolyline.of(passes, seen, closed, aim, LONGEST_CHORD * diagonal)
+            return ProxyPolyline.of(passes, seen, closed, distance, LONGEST_CHORD * diagonal)
         except InvalidInputError:  # too many would stay
-            aim *= 4.0
+            distance *= 4.0

@@ -59,8 +59,8 @@ class Runs:
                 corner = crossing
         reach = NOISE_BAND * self._noise
         for points, direction in ((left, u), (right, -v)):
-            off = points - corner
-            beyond = (off @ direction > 0) & (np.hypot(off[:, 0], off[:, 1]) <= reach)
+            away = points - corner
+            beyond = (away @ direction > 0) & (np.hypot(away[:, 0], away[:, 1]) <= reach)
             points[beyond] = corner
         left[-1] = right[0] = corner
 

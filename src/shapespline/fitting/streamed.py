@@ -131,15 +131,15 @@ def _pieces_problem(
     request: Request,
 ) -> PiecesProblem:
     """What the search knows: corners found in the sample, if any may be, are vertices near by."""
-    aim, constraints = request.tolerance or 0.0, request.constraints
+    tolerance, constraints = request.tolerance or 0.0, request.constraints
     normalized = NormalizedContour.of(thinned)
-    seen, scaled = normalized.taken_over(sample), aim * normalized.scale
+    seen, scaled = normalized.taken_over(sample), tolerance * normalized.scale
     n = len(thinned)
     empty = np.empty(0, dtype=np.int64)
     if request.style.corners is None:
         low_turn = np.ones(n, dtype=np.int64)
         return PiecesProblem(normalized, scaled, empty, low_turn, constraints, dense=seen)
-    found = find_corners(sample, aim)
+    found = find_corners(sample, tolerance)
     stride = n_points / len(sample)
     beside = np.minimum((indices / stride).astype(np.int64), len(sample) - 1)
     low_turn = (found.turns[beside] < LOW_TURN).astype(np.int64)

@@ -1,4 +1,4 @@
-"""Curves flattened: points so dense that the chords between them stay near the curve."""
+"""Curves flattened: points so dense that the chords between them stay near them (Wang 1984)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which polylines cross each other, or themselves."""
+"""Which polylines cross each other, or themselves: boxes swept in x, then signs of areas."""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 """Pieces laid end to end, exactly: lines, Beziers and splines of mixed degree as one B-spline.
 
-Every piece is raised to one degree, exactly, and pieces are laid end to end on [0, 1]. A node
-without common tangent is a knot of full multiplicity; where the tangents agree the widths of the
-parameter intervals are chosen so that the speeds agree too, the curve is C1 and one knot less.
+Every piece is raised to one degree, exactly (by blossoms, Ramshaw 1989), and pieces are laid end to
+end on [0, 1]. A node without common tangent is a knot of full multiplicity; where the tangents
+agree the widths of the parameter intervals are chosen so that the speeds agree too, the curve is C1
+and one knot less.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Nearest points on a curve."""
+"""Nearest points on a curve: branch and bound over Bezier pieces, Newton's method on each."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def nearest(curve: BSplineCurve, points: ArrayLike) -> Nearest:
     """Nearest point of the curve for each query point.
 
     Every Bezier piece whose hull comes near enough is searched, so no distant branch is missed;
-    within a gentle piece Newton's method finds the foot. The distance is that of a real curve
+    within such a piece Newton's method finds the foot. The distance is that of a real curve
     point, hence an upper bound of the true one whatever happens.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Which closed outline lies directly inside which."""
+"""Which closed outline lies directly inside which: the even-odd rule for a few witnesses."""
 
 from __future__ import annotations
 

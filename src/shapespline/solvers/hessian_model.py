@@ -1,4 +1,4 @@
-"""Stand-ins for the Hessian: immutable values that give a direction and take an update.
+"""Approximations of the Hessian: immutable values that give a direction and take an update.
 
 The formulas of the generalised BFGS family (METHOD, section 3; `quasi_newton` names the methods),
 O(n) but for the dense one.
@@ -29,7 +29,7 @@ class Pair:
 
 
 class HessianModel(Protocol):
-    """An immutable stand-in for the Hessian."""
+    """An immutable approximation of the Hessian."""
 
     def direction(self, gradient: FloatArray, /) -> FloatArray:
         """Return the search direction as a fresh array."""

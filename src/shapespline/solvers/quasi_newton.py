@@ -1,7 +1,7 @@
-"""The generalised BFGS family: one update formula, and cheap stand-ins for the Hessian.
+"""The generalised BFGS family: one update formula, and cheap approximations of the Hessian.
 
 Every method builds its matrix as ``B+ = BFGS(B~, s, y)`` (Eq. 8 and 9 of the paper) from a cheap
-stand-in ``B~`` of the last one, with ``s`` the step and ``y`` the change of the gradient:
+approximation ``B~`` of the last one, with ``s`` the step and ``y`` the change of the gradient:
 
 ==================  =====================================================  ==================
 name                B~                                                     direction
@@ -16,8 +16,8 @@ bfgs                B itself, as a dense inverse                           -H+ g
 l-bfgs              the last ``memory`` updates of the start diagonal      -H+ g
 ==================  =====================================================  ==================
 
-Each stand-in is an immutable value (`HessianModel`) that gives a direction and takes an update;
-`QuasiNewton` adds the line search and the restarts. An update is skipped when the curvature
+Each approximation is an immutable value (`HessianModel`) that gives a direction and takes an
+update; `QuasiNewton` adds the line search and the restarts. An update is skipped when the curvature
 ``y's`` is not sufficiently positive, which after a successful Wolfe search cannot happen.
 
 Memory: at the peak of a step, x0 included, 13 vectors at most for the diagonal methods and

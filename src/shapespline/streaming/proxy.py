@@ -90,21 +90,21 @@ class ProxyPolyline(NamedTuple):
     @classmethod
     def _averaged(cls, passes: Passes, seen: Seen, closed: bool, width: int) -> ProxyPolyline:
         parts: list[Averages] = passes.over_all(averages, [(width,)] * len(passes.stream))
-        off = [part.off for part in parts]
-        off += [joint(before, after) for before, after in pairwise(parts)]
+        bounds = [part.error_bound for part in parts]
+        bounds += [joint(before, after) for before, after in pairwise(parts)]
         begins = passes.stream.begins
         points = np.concatenate([part.nodes for part in parts])
         indices = np.concatenate(
             [begin + part.indices for begin, part in zip(begins, parts, strict=False)]
         )
         if closed:
-            off.append(joint(parts[-1], parts[0]))
-            return cls(points, indices, max(off))
+            bounds.append(joint(parts[-1], parts[0]))
+            return cls(points, indices, max(bounds))
         first, last = seen.firsts[0], seen.last
-        off += [at_end(first, parts[0].head), at_end(last, parts[-1].tail[::-1])]
+        bounds += [at_end(first, parts[0].head), at_end(last, parts[-1].tail[::-1])]
         points = np.concatenate([first[None], points, last[None]])
         indices = np.concatenate([[0], indices, [begins[-1] - 1]])
-        return cls(points, indices, max(off))
+        return cls(points, indices, max(bounds))
 
     def _kept_of(self, distance: float, longest: float, closed: bool) -> ProxyPolyline:
         """Some of the vertices, a distance from the others."""
@@ -144,7 +144,7 @@ class _Trial(NamedTuple):
 def _scatter(stream: PointStream, width: int) -> float:
     """About how far points lie from their averages."""
     tried = _tried(stream)
-    return max(part.off for part in stream.map(averages, [(width,)] * len(tried), tried))
+    return max(part.error_bound for part in stream.map(averages, [(width,)] * len(tried), tried))
 
 
 def _thin(
@@ -152,6 +152,6 @@ def _thin(
 ) -> ProxyPolyline:
     """Vertices a distance from the polyline that goes on to the point after it."""
     track = points if after is None else np.concatenate([points, after[None]])
-    kept = np.array(_kernels.thinned(track, distance, longest, None), dtype=np.int64)
-    kept = kept if after is None else kept[:-1]
-    return ProxyPolyline(points[kept], kept, distance)
+    kept_indices = np.array(_kernels.thinned(track, distance, longest, None), dtype=np.int64)
+    kept_indices = kept_indices if after is None else kept_indices[:-1]
+    return ProxyPolyline(points[kept_indices], kept_indices, distance)

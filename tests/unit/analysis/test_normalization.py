@@ -73,7 +73,7 @@ def test_a_thinned_frame_tells_which_points_are_left():
     thin = frame.thinned(0.05 * frame.scale, np.array([5, 77]))
     assert len(thin.contour) <= WORTH_THINNING * len(contour)
     assert {5, 77} <= set(np.flatnonzero(np.isin(frame.order, thin.order)))
-    assert thin.slack == pytest.approx(THINNING * 0.05 * frame.scale)
+    assert thin.error_used == pytest.approx(THINNING * 0.05 * frame.scale)
     back = thin.contour.points / thin.scale + thin.middle
     assert back == pytest.approx(contour.points[thin.order], abs=1e-13)
 

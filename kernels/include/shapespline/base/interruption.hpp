@@ -30,7 +30,7 @@ class Interruption {
 
   private:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::milliseconds kInterval{50};
+    static constexpr std::chrono::milliseconds kInterval{50};  // (KER-03)
 
     Ask ask_;
     Clock::time_point last_;

@@ -112,7 +112,7 @@ class CurveSearch {
 
     static constexpr int kMaxDepth = 8, kMinDepth = 2, kNewtonSteps = 32;
     // Newton's method squares its error: what is left after a step so small is nothing to the
-    // distance, which it changes by its square again.
+    // distance, which it changes by its square again (GEO-05).
     static constexpr double kLastStep = 1e-7;
     // The distance after such a step is not asked for where it shortens the square by this part of
     // it at most: that before it will do, 5e-14 of the length of the piece too long at most.

@@ -101,12 +101,13 @@ class LocalProducts {
 
   private:
     // Whole rows of an even number of columns, of which flush reads the lower triangle: twice the
-    // products, but all of them in vector registers.
+    // products, but all of them in vector registers (KER-01).
     static constexpr int kWidth = (Degree + 2) / 2 * 2;
     std::array<std::array<double, kWidth>, Degree + 1> xx_{}, xy_{}, yy_{};
     std::array<Vec2, Degree + 1> rhs_{};
 };
 
+// Moments lose a digit a degree, and their work grows: up to this one (KER-02).
 inline constexpr int kMomentDegree = 5;
 
 // How a curve of a degree is read along its data, and what collects their part of the equations.

@@ -169,7 +169,7 @@ inline StepResult damped_step(const Knots &knots, std::span<const Vec2> control_
 }
 
 // Of the way along the tangent so much counts as a residual: none would leave control points on
-// straight lines free to slide.
+// straight lines free to slide (LSQ-06).
 inline constexpr double kAlongPart = 1e-3;
 
 // The normal equations with the parameters eliminated, written out: the cost, the right side, the

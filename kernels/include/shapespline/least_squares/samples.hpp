@@ -36,7 +36,7 @@ struct Samples {
 // which the residuals of the data cannot see: bumps beside corners, loops in spans that lost their
 // points. Where neighbours' parameters are more than kFreeGap of a span apart, the curve between
 // them is compared with the segment between the points, at matching fractions (a Frechet distance).
-// The weight grows smoothly from zero, so that points may still drift apart.
+// The weight grows smoothly from zero, so that points may still drift apart (LSQ-01).
 inline constexpr double kFreeGap = 0.125;
 inline constexpr double kStraySamples = 8.0;  // a span
 

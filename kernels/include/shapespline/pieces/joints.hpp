@@ -34,12 +34,14 @@ class JointSmoother {
     }
 
   private:
+    // Minimax rounds of a joint (PIE-11), and points that may make one smooth (PIE-13).
     static constexpr int kRounds = 20, kStartRounds = 12, kMostRaise = 4;
     // A joint that turns more than this, in radians, is not worth the attempt.
     static constexpr double kSteepest = 0.785;
-    static constexpr double kTangent = 1.01 / 57.3;  // of a joint that was made tangent
-    static constexpr int kStrays = 3;  // rounds with stray curves
-    static constexpr int kWidest = 2;  // sections on either side of one joint
+    // A joint that was made tangent turns less: the values' CORNER_TURN but for the fifth digit.
+    static constexpr double kTangent = 1.01 / 57.3;
+    static constexpr int kStrays = 3;  // rounds with stray curves (PIE-11)
+    static constexpr int kWidest = 2;  // sections on either side of one joint (PIE-10)
 
     // A curve-curve joint that is no corner costs fewer points inside one spline: C1 saves one,
     // C2 two. The splines that fail are not tried again.

@@ -26,7 +26,7 @@ struct LawsonLimits {
     bool general = false;
 };
 
-// Two are enough where much is tried and little succeeds, but where joints are free.
+// Two are enough where much is tried and little succeeds, but where joints are free (PIE-07).
 inline constexpr int most_strays(bool smooth) {
     return smooth ? 2 : std::numeric_limits<int>::max();
 }
@@ -40,7 +40,8 @@ struct LawsonStop {
     // all bring it near at a rate of this kind (measured).
     static bool out_of_reach(double sum, double total_weight, double best, double tolerance,
                              int round, bool converged) {
-        // The bound of a start that has not converged may be too large by this factor, squared.
+        // The bound of a start that has not converged may be too large by this factor, squared;
+        // a lower rate gives up what would succeed (PIE-14).
         constexpr double kStartFactor = 9.0, kRate = 20.0;
         const double factor = converged ? 1.0 : kStartFactor;
         return sum > factor * tolerance * tolerance * total_weight ||
@@ -59,7 +60,7 @@ struct LawsonResult {
     std::vector<Section> sections;
 };
 
-// A section this many tolerances away between fixed nodes is hopeless with free ones (measured).
+// A section this many tolerances away between fixed nodes is hopeless with free ones (PIE-10).
 inline constexpr double kWorthFreeing = 6.0;
 
 class LawsonFit {

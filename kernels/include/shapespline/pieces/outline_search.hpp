@@ -40,7 +40,7 @@ struct OutlineSearch {
     }
 
   private:
-    static constexpr double kDegenerate = 1e-3;  // of the tolerance
+    static constexpr double kDegenerate = 1e-3;  // of the tolerance (PIE-12)
     static constexpr int kPathTrials = 200, kPathRounds = 30, kMostStarts = 16;
 
     std::vector<Section> sections_of_best_path() const {

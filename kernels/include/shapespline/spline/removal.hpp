@@ -159,10 +159,10 @@ class KnotRemoval {
     };
     static constexpr int kRefitSamples = 24;
     static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
-    static constexpr double kThinning = 0.025, kBendPart = 5.0;  // of the tolerance
-    static constexpr int kSearchPoints = 150;  // at least; see docs/decisions.md
-    static constexpr std::size_t kManyBends = 40;
-    static constexpr int kManyFailures = 12;  // failures in a row that make others unlikely
+    static constexpr double kThinning = 0.025, kBendPart = 5.0;  // of the tolerance (SPL-04)
+    static constexpr int kSearchPoints = 150;  // at least (SPL-03)
+    static constexpr std::size_t kManyBends = 40;  // vertices (SPL-04)
+    static constexpr int kManyFailures = 12;  // in a row make others unlikely (SPL-07)
     static constexpr int kMedianAge = 256;  // control points for one removal that it may be old
     static constexpr double kTryStale = 0.97;
     static constexpr double kFlatness = 0.01;  // of the tolerance, for crossings

@@ -117,6 +117,7 @@ class KnotInsertion {
     }
 
   private:
+    // Rounds of insertion at most, and iterations between them (SPL-09).
     static constexpr int kRounds = 40, kIterations = 5;
 
     bool split(SplineState<Degree> &state, int &next_id) {

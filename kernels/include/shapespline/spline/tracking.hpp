@@ -181,6 +181,7 @@ class Tracking {
     }
 
   private:
+    // Segments in a row that may be farther before a look ends; a proof looks again (SPL-05).
     static constexpr int kMaxDepth = 20, kPatience = 4, kHintPatience = 2, kProofPatience = 32;
 
     // The polyline segment that begins at the last data point before a point of the curve;

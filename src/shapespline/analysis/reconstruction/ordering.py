@@ -266,9 +266,9 @@ def _in_data_units(
         best, at = np.full(len(given), np.inf), np.zeros(len(given))
         for k in range(len(a)):
             share = np.clip((given - a[k]) @ d[k] / length_sq[k], 0.0, 1.0)
-            off = np.hypot(*(given - a[k] - share[:, None] * d[k]).T)
-            nearer = off < best
-            best[nearer], at[nearer] = off[nearer], k + share[nearer]
+            distance = np.hypot(*(given - a[k] - share[:, None] * d[k]).T)
+            nearer = distance < best
+            best[nearer], at[nearer] = distance[nearer], k + share[nearer]
         places.append((best, at))
     distances = np.array([best for best, _ in places])
     owner = distances.argmin(axis=0)

@@ -2,7 +2,8 @@
 
     minimise over P, t   1/2 sum_j w_j |C(t_j) - Q_j|^2                     (the paper's Eq. 3)
 
-as a function of one flat vector: the control points, x and y interleaved, then the parameters.
+as a function of one flat vector: the control points, x and y interleaved, then the parameters. That
+is orthogonal distance regression; its step eliminates the parameters by a Schur complement.
 Cost, gradient, Gauss-Newton diagonal and the Levenberg-Marquardt step are O(n) each, in the kernel.
 """
 
@@ -151,7 +152,7 @@ class CurveProblem:
         return Proposal(step, cost - predicted, gradient_norm)
 
     def metric_step(self, x: FloatArray, metric: Metric, damping: float) -> Proposal | None:
-        """Control points that a quadratic stand-in for the squared distances asks for.
+        """Control points that a quadratic model of the squared distances asks for.
 
         The parameters stay: `projected` finds them. None if the system has no solution.
         """

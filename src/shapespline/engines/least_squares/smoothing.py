@@ -118,10 +118,10 @@ def _of_size(
 def straight_line(contour: Contour, noise: float) -> Smoothed:
     """The nearest straight line (total least squares)."""
     middle = contour.points.mean(axis=0)
-    off = contour.points - middle
-    values, vectors = np.linalg.eigh(np.einsum("ji,jk->ik", off, off))
-    along = vectors[:, 1] * np.copysign(1.0, (off[-1] - off[0]) @ vectors[:, 1])
-    points = middle + np.outer(np.sort(off @ along), along)
+    away = contour.points - middle
+    values, vectors = np.linalg.eigh(np.einsum("ji,jk->ik", away, away))
+    along = vectors[:, 1] * np.copysign(1.0, (away[-1] - away[0]) @ vectors[:, 1])
+    points = middle + np.outer(np.sort(away @ along), along)
     return Smoothed(points, max(float(values[0]), 0.0) / noise**2 + 2 * PENALTY, 2, None)
 
 

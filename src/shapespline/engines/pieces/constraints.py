@@ -36,7 +36,7 @@ class Constraints(NamedTuple):
 
 
 def pinned_exactly(pieces: tuple[Piece, ...], points: FloatArray) -> None:
-    """Moves the nodes nearest to some points onto them, which undoes the rounding of a frame."""
+    """Moves the nodes nearest to some points onto them, which undoes rounding."""
     nodes = np.array([piece.control_points[0] for piece in pieces])
     nodes = np.concatenate([nodes, pieces[-1].control_points[-1:]])
     for point in points:

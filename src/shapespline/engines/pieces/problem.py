@@ -52,19 +52,21 @@ class PiecesProblem(NamedTuple):
         4
         """
         normalized = NormalizedContour.of(contour)
-        aim, n = tolerance * normalized.scale, len(contour)
+        search_tolerance, n = tolerance * normalized.scale, len(contour)
         low_turn = np.ones(n, dtype=np.int64)
         constraints = _in_order(Constraints() if constraints is None else constraints, normalized)
         if corners is None:
-            return cls(normalized, aim, np.empty(0, dtype=np.int64), low_turn, constraints)
+            return cls(
+                normalized, search_tolerance, np.empty(0, dtype=np.int64), low_turn, constraints
+            )
         if isinstance(corners, str):
             if corners not in ("auto", "free"):
                 raise InvalidInputError(
                     f"corners must be 'auto', 'free', None or indices, got {corners!r}"
                 )
-            found = find_corners(normalized.contour, aim)
+            found = find_corners(normalized.contour, search_tolerance)
             low_turn = (found.turns < LOW_TURN).astype(np.int64)
-            return cls(normalized, aim, found.indices, low_turn, constraints)
+            return cls(normalized, search_tolerance, found.indices, low_turn, constraints)
         given = np.asarray(corners)
         if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
             raise InvalidInputError(f"corners must be one list of whole numbers, got {corners!r}")
@@ -72,7 +74,7 @@ class PiecesProblem(NamedTuple):
             raise InvalidInputError(f"corners must be indices below {n}, got {given.tolist()}")
         return cls(
             normalized,
-            aim,
+            search_tolerance,
             np.unique(normalized.place[given.astype(np.int64)]),
             low_turn,
             constraints,
@@ -87,7 +89,7 @@ class PiecesProblem(NamedTuple):
         place = self.normalized.place[normalized.order]
         return self._replace(
             normalized=normalized,
-            tolerance=self.tolerance - normalized.slack,
+            tolerance=self.tolerance - normalized.error_used,
             corners=np.flatnonzero(np.isin(place, self.corners)),
             low_turn=self.low_turn[place],
             constraints=self.constraints._replace(

@@ -27,7 +27,7 @@ DEGENERATE_PART = 1e-12
 # A corner that the fit turns by less than this part of what makes a corner is given up.
 RELEASE = 0.7
 # Control points may move by this part of the tolerance to make a tangent exact: it is less than
-# what the first aim leaves.
+# what the first tolerance factor leaves.
 LARGEST_MOVE = 0.002
 # The same for a fit to noisy points, in standard deviations of the noise.
 OBSERVED_MOVE = 0.1

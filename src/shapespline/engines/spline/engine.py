@@ -1,10 +1,10 @@
 """The single spline: the fewest control points by knot removal with free knots.
 
-One B-spline with many knots loses one knot after another. Each removal is refitted in a window with
-control points, parameters and knot gaps free, in a rising p-norm of the distances in both
-directions, and taken only if both are proven to keep the tolerance. The loops are in
-kernels/include/shapespline/spline; here are the limits, the levels of effort and the check of the
-exported curve.
+One B-spline with many knots loses one knot after another (Lyche and Morken 1987). Each removal is
+refitted in a window with control points, parameters and knot intervals free, in a rising p-norm of
+the distances in both directions, and taken only if both are proven to keep the tolerance. The loops
+are in kernels/include/shapespline/spline; here are the limits, the levels of effort and the check
+of the exported curve.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.engines.spline.fairness import GAP_RATIO, SPEED_RATIO, Fairness, fairness_of
+from shapespline.engines.spline.fairness import INTERVAL_RATIO, SPEED_RATIO, Fairness, fairness_of
 from shapespline.values import BSplineCurve, periodic_knots
 
 if TYPE_CHECKING:
@@ -26,14 +26,14 @@ if TYPE_CHECKING:
     from shapespline.typing import Effort
     from shapespline.values import Contour
 
-# Extent of the data that the gap limits refer to.
+# Extent of the data that the limits of intervals refer to.
 EXTENT = 100.0
-# Gaps of a fair curve: corners need some as small as the tolerance, long straight runs large ones.
-# Measured: 0.02 / 0.04 / 0.06 / 0.1 / 0.15 at tolerances 0.1 and 0.5 give 834 / 810 / 807 / 800 /
-# 794 control points over 26 fits (SPL-01).
-LEAST_GAP = (0.015, 0.2)
-LEAST_GAP_TOLERANCES = 1.5
-FREE_GAPS = (1e-3, 150.0)
+# Knot intervals of a fair curve: corners need some as small as the tolerance, long straight runs
+# large ones. Measured: 0.02 / 0.04 / 0.06 / 0.1 / 0.15 at tolerances 0.1 and 0.5 give 834 / 810 /
+# 807 / 800 / 794 control points over 26 fits (SPL-01).
+LEAST_INTERVAL = (0.015, 0.2)
+LEAST_INTERVAL_TOLERANCES = 1.5
+FREE_INTERVALS = (1e-3, 150.0)
 # A fit stops at this part of the tolerance; a curve is taken when proven to keep that one.
 ENOUGH, ACCEPT = 0.97, 0.998
 SAMPLES_PER_SPAN, SAMPLE_WEIGHT = 8, 0.5
@@ -132,7 +132,7 @@ def attempts(
 
     References
     ----------
-    Lyche and Morken 1987 (knot removal); Jupp 1978 (logarithms of knot gaps as unknowns).
+    Lyche and Morken 1987 (knot removal); Jupp 1978 (logarithms of knot intervals as unknowns).
 
     Examples
     --------
@@ -180,12 +180,12 @@ def _search(
     monitor: Monitor,
 ) -> _kernels.RemovalSearch:
     """The stages of one search, as many as the monitor allows."""
-    scaled = tolerance * normalized.scale - normalized.slack
+    scaled = tolerance * normalized.scale - normalized.error_used
     unit = normalized.extent / EXTENT
-    low, high = (unit * gap for gap in LEAST_GAP)
-    least = min(max(LEAST_GAP_TOLERANCES * scaled, low), high)
-    least_gap, largest_gap = (
-        (least, GAP_RATIO * least) if fair else (unit * gap for gap in FREE_GAPS)
+    low, high = (unit * length for length in LEAST_INTERVAL)
+    least = min(max(LEAST_INTERVAL_TOLERANCES * scaled, low), high)
+    least_interval, largest_interval = (
+        (least, INTERVAL_RATIO * least) if fair else (unit * length for length in FREE_INTERVALS)
     )
     settings = _kernels.SplineSettings(
         fit=_kernels.FitLimits(
@@ -193,11 +193,11 @@ def _search(
             enough=ENOUGH,
             samples_per_span=SAMPLES_PER_SPAN,
             sample_weight=SAMPLE_WEIGHT,
-            least_interval=least_gap,
-            largest_interval=largest_gap,
+            least_interval=least_interval,
+            largest_interval=largest_interval,
             stagnation_limit=level.stagnation_limit,
         ),
-        fairness=_kernels.Fairness(interval_ratio=GAP_RATIO, speed_ratio=SPEED_RATIO),
+        fairness=_kernels.Fairness(interval_ratio=INTERVAL_RATIO, speed_ratio=SPEED_RATIO),
         keep_fair=fair,
         start=start,
         accept=ACCEPT,
@@ -222,20 +222,20 @@ def _exported(
     search: _kernels.RemovalSearch, normalized: NormalizedContour, contour: Contour, degree: int
 ) -> BSplineCurve:
     """The curve over [0, 1] in data units; the seam of a periodic one is a simple knot."""
-    gap_list, coordinates = search.curve()
-    gaps = np.array(gap_list)
+    interval_list, coordinates = search.curve()
+    intervals = np.array(interval_list)
     points = np.array(coordinates).reshape(-1, 2)
     if not contour.closed:
-        knots = np.concatenate([[0.0], np.cumsum(gaps)])
+        knots = np.concatenate([[0.0], np.cumsum(intervals)])
         knots /= knots[-1]
         knots[len(points) :] = 1.0  # rounding
         restored = normalized.restored_curve(BSplineCurve(knots, points, degree))
         points = restored.control_points.copy()
-        points[[0, -1]] = contour.points[[0, -1]]  # but for the rounding of the frame they are
+        points[[0, -1]] = contour.points[[0, -1]]  # but for rounding they are
         return BSplineCurve(restored.knots, points, degree)
-    simple = (gaps > 0) & (np.roll(gaps, 1) > 0)
-    seam = int(np.argmax(simple)) if simple.any() else int(np.argmax(gaps > 0))
-    period = np.concatenate([[0.0], np.cumsum(np.roll(gaps, -seam))])
+    simple = (intervals > 0) & (np.roll(intervals, 1) > 0)
+    seam = int(np.argmax(simple)) if simple.any() else int(np.argmax(intervals > 0))
+    period = np.concatenate([[0.0], np.cumsum(np.roll(intervals, -seam))])
     knots = periodic_knots(len(points), degree, period / period[-1])
     points = np.roll(points, degree - seam, axis=0)
     return normalized.restored_curve(BSplineCurve(knots, points, degree, periodic=True))

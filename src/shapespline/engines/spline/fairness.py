@@ -11,19 +11,20 @@ from shapespline import _kernels
 if TYPE_CHECKING:
     from shapespline.values import BSplineCurve, Contour
 
-# Largest over smallest knot gap, slowest over median speed.
-GAP_RATIO, SPEED_RATIO = 1000.0, 0.05
+# Largest over smallest knot interval, slowest over median speed.
+INTERVAL_RATIO, SPEED_RATIO = 1000.0, 0.05
 
 
 class Fairness(NamedTuple):
     """How fair an exported curve is.
 
-    ``gap_ratio`` is the largest over the smallest non-zero knot gap, ``speed_ratio`` the slowest
-    speed over its median (both with respect to the parameter, knots of multiplicity >= degree left
-    out), ``n_crossings`` and ``n_data_crossings`` count self-crossings of curve and data polyline.
+    ``interval_ratio`` is the largest over the smallest non-zero knot interval, ``speed_ratio`` the
+    slowest speed over its median (both with respect to the parameter, knots of multiplicity >=
+    degree left out), ``n_crossings`` and ``n_data_crossings`` count self-crossings of curve and
+    data polyline.
     """
 
-    gap_ratio: float
+    interval_ratio: float
     speed_ratio: float
     n_crossings: int
     n_data_crossings: int
@@ -32,7 +33,7 @@ class Fairness(NamedTuple):
     def kept(self) -> bool:
         """Whether the curve is fit for use."""
         return (
-            self.gap_ratio <= GAP_RATIO * (1 + 1e-9)
+            self.interval_ratio <= INTERVAL_RATIO * (1 + 1e-9)
             and self.speed_ratio >= SPEED_RATIO * (1 - 1e-9)
             and self.n_crossings <= self.n_data_crossings
         )
@@ -46,18 +47,18 @@ def fairness_of(curve: BSplineCurve, contour: Contour) -> Fairness:
     64 samples a span: not a rigorous bound.
     """
     breaks = curve.breakpoints
-    gaps = np.diff(breaks)
+    intervals = np.diff(breaks)
     share = (np.arange(64) + 0.5) / 64
-    u = (breaks[:-1, None] + gaps[:, None] * share).ravel()
+    u = (breaks[:-1, None] + intervals[:, None] * share).ravel()
     velocity = curve(u, derivative=1)
     speed = np.hypot(velocity[:, 0], velocity[:, 1])
     order = np.argsort(speed, kind="stable")
-    weight = np.cumsum(np.repeat(gaps / 64, 64)[order])
+    weight = np.cumsum(np.repeat(intervals / 64, 64)[order])
     median = float(speed[order][np.searchsorted(weight, 0.5 * weight[-1])])
     inside = curve.knots[curve.degree : len(curve.knots) - curve.degree]
     corners = np.array([b for b in breaks if np.count_nonzero(inside == b) >= curve.degree])
     away = np.ones(len(u), dtype=bool)
-    width = np.repeat(gaps, 64)
+    width = np.repeat(intervals, 64)
     for corner in corners:
         away &= np.abs(u - corner) > 0.05 * width
     slowest = float(speed[away].min()) if away.any() else median
@@ -65,7 +66,7 @@ def fairness_of(curve: BSplineCurve, contour: Contour) -> Fairness:
     if not curve.periodic:
         vertices = np.concatenate([curve(breaks[:1]), vertices])
     return Fairness(
-        float(gaps.max() / gaps.min()),
+        float(intervals.max() / intervals.min()),
         slowest / median if median > 0 else 0.0,
         _kernels.count_crossings(np.ascontiguousarray(vertices)),
         _kernels.count_crossings(np.ascontiguousarray(contour.polyline)),

@@ -1,4 +1,4 @@
-"""Pieces of a curve and the points that each stands for, along the trail of the data."""
+"""Pieces of a curve and the points that each stands for, in the order of the data."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class DataRun(NamedTuple):
         return DataRun(self.points[begin:end], self.along[begin:end])
 
     def turned(self, first: int, length: float) -> DataRun:
-        """The trail of a closed contour of this length from another first point on."""
+        """The run of a closed contour of this length from another first point on."""
         along = np.concatenate([self.along[first:], self.along[:first] + length])
         return DataRun(np.roll(self.points, -first, axis=0), along)
 
@@ -53,26 +53,26 @@ class AssignedPiece(NamedTuple):
 
 
 class PieceAssignment(NamedTuple):
-    """The parts of a fit, end to end along the trail of its data, and which fit it is."""
+    """The parts of a fit, end to end along its data, and which fit it is."""
 
     owner: int
     fit: Fit
-    trail: DataRun
+    data: DataRun
     parts: tuple[AssignedPiece, ...]
 
     @classmethod
     def of(cls, owner: int, fit: Fit) -> PieceAssignment:
         """The row of a fit; of a closed one from its longest piece on."""
         pieces, contour = pieces_of(fit), fit.contour
-        trail = DataRun(contour.points, contour.arc_length[: len(contour)])
+        data = DataRun(contour.points, contour.arc_length[: len(contour)])
         if contour.closed:
             lengths = [_length(_chords(piece, fit.tolerance)) for piece in pieces]
             longest = int(np.argmax(lengths))
             pieces = pieces[longest:] + pieces[:longest]
             share = lengths[longest] / sum(lengths)
             begin = _begin(contour, curve_of(pieces[0]), share, fit.tolerance)
-            trail = trail.turned(begin, contour.length)
-        return cls(owner, fit, trail, located(trail, pieces, fit.tolerance))
+            data = data.turned(begin, contour.length)
+        return cls(owner, fit, data, located(data, pieces, fit.tolerance))
 
     @property
     def line(self) -> FloatArray:
@@ -81,11 +81,11 @@ class PieceAssignment(NamedTuple):
 
     def turned(self, first: int) -> PieceAssignment:
         """The row of a closed fit from another part on."""
-        begin, count = self.parts[first].begin, len(self.trail.points)
-        trail = self.trail.turned(begin, self.fit.contour.length)
+        begin, count = self.parts[first].begin, len(self.data.points)
+        data = self.data.turned(begin, self.fit.contour.length)
         ahead = [part.shifted(-begin) for part in self.parts[first:]]
         rest = [part.shifted(count - begin) for part in self.parts[:first]]
-        return self._replace(trail=trail, parts=(*ahead, *rest))
+        return self._replace(data=data, parts=(*ahead, *rest))
 
 
 def curve_of(piece: Piece) -> BSplineCurve:
@@ -115,22 +115,22 @@ def shares_of(x: FloatArray, y: FloatArray, u: FloatArray, v: FloatArray) -> Flo
 
 
 def located(
-    trail: DataRun, pieces: Sequence[Piece], tolerance: float, first: int = 0
+    data: DataRun, pieces: Sequence[Piece], tolerance: float, first: int = 0
 ) -> tuple[AssignedPiece, ...]:
-    """Pieces with the points between their nodes, of a trail that begins with point ``first``.
+    """Pieces with the points between their nodes, of data that begin with point ``first``.
 
     Nodes are looked for along the arc lengths of both.
     """
     curves = [curve_of(piece) for piece in pieces]
     lines = [_chords(piece, tolerance) for piece in pieces]
     lengths = np.array([_length(line) for line in lines])
-    count = len(trail.along)
+    count = len(data.along)
     if count:
-        lengths *= (trail.along[-1] - trail.along[0]) / lengths.sum()
+        lengths *= (data.along[-1] - data.along[0]) / lengths.sum()
     cuts = [0]
     for (before, after), length in zip(pairwise(curves), lengths[:-1], strict=True):
-        low, high = _window(trail, cuts[-1], length, after.control_points[0], tolerance)
-        cuts.append(low + _cut(before, after, trail.points[low:high], tolerance))
+        low, high = _window(data, cuts[-1], length, after.control_points[0], tolerance)
+        cuts.append(low + _cut(before, after, data.points[low:high], tolerance))
     cuts.append(count)
     return tuple(
         AssignedPiece(piece, line, first + i, first + k)
@@ -150,8 +150,8 @@ def _length(line: FloatArray) -> float:
 def _begin(contour: Contour, curve: BSplineCurve, share: float, tolerance: float) -> int:
     """The first of a closed contour's points that goes with a curve along a share of it.
 
-    Across a slit another place may be as near to where the curve begins, but the points after that
-    do not run along the curve.
+    Across a clearance another place may be as near to where the curve begins, but the points after
+    that do not run along the curve.
     """
     lost = nearest(curve, contour.points).distances_sq > tolerance**2
     n_lost = np.concatenate([[0], np.cumsum(np.tile(lost, 2))])
@@ -165,24 +165,24 @@ def _begin(contour: Contour, curve: BSplineCurve, share: float, tolerance: float
 
 
 def _window(
-    trail: DataRun, begin: int, length: float, node: FloatArray, tolerance: float
+    data: DataRun, begin: int, length: float, node: FloatArray, tolerance: float
 ) -> tuple[int, int]:
     """The points (low, high) among which a piece from one of them on, so long, ends at a node.
 
     A curve within the tolerance is shorter than data that scatter: the points are looked for
     farther away until some of them are near the node.
     """
-    count = len(trail.along)
+    count = len(data.along)
     windows: list[tuple[int, int]] = []
     if not count:
         return 0, 0
-    target = trail.along[min(begin, count - 1)] + length
+    target = data.along[min(begin, count - 1)] + length
     reach = ALONG * length + TOLERANCES * tolerance
     while True:
-        at = np.searchsorted(trail.along, [target - reach, target + reach])
+        at = np.searchsorted(data.along, [target - reach, target + reach])
         low, high = np.maximum(at, begin).tolist()
         windows.append((low, high))
-        polyline = trail.points[max(low - 1, 0) : high + 1]
+        polyline = data.points[max(low - 1, 0) : high + 1]
         if len(polyline) > 1 and _distances_sq(node, polyline).min() <= tolerance**2:
             return low, high
         if low == begin and high == count:

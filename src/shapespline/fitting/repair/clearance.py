@@ -1,4 +1,4 @@
-"""Data beside a slit: points moved from its other side, so that curves along them stay apart.
+"""Data beside a narrow clearance: points moved from its other side, so that curves stay apart.
 
 A curve within w of points that were moved by no more than the rest of a tolerance keeps it to the
 points as they were. Where two sides are nearer to each other than 2 w their points move apart until
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray, IntArray
     from shapespline.values import Contour
 
-# Two places of an outline lie across a slit if the way along it is so many times their distance.
+# Two places of an outline lie across a clearance if the way along it is so many times their
+# distance.
 AROUND = 4.0
 # Pairs of a point and a segment looked at at a time.
 CHUNK = 20_000
@@ -60,24 +61,24 @@ class Sides(NamedTuple):
         near &= (np.maximum(self.begins, ends) >= low).all(axis=1)
         return Sides(*(column[near] for column in self))
 
-    def across(self, trail: DataRun, own: int, least: float) -> FloatArray:
-        """Vectors to the points of contour ``own`` from what is nearest across a slit.
+    def across(self, data: DataRun, own: int, least: float) -> FloatArray:
+        """Vectors to the points of contour ``own`` from what is nearest across a clearance.
 
         They are infinite where nothing is, at the least so far along the outline.
         """
         step = max(1, CHUNK // len(self.begins))
-        parts = [trail.part(k, k + step) for k in range(0, len(trail.points), step)]
+        parts = [data.part(k, k + step) for k in range(0, len(data.points), step)]
         return np.concatenate([self._across(part, own, least) for part in parts])
 
-    def _across(self, trail: DataRun, own: int, least: float) -> FloatArray:
-        (px, py), (bx, by), (ux, uy) = trail.points.T, self.begins.T, self.vectors.T
+    def _across(self, data: DataRun, own: int, least: float) -> FloatArray:
+        (px, py), (bx, by), (ux, uy) = data.points.T, self.begins.T, self.vectors.T
         x, y = px[:, None] - bx, py[:, None] - by
         shares = shares_of(x, y, ux, uy)
         x -= shares * ux
         y -= shares * uy
         distances = np.sqrt(x * x + y * y)
         mine = self.owners == own
-        along = np.fmod(trail.along, self.lengths[mine][0]) if mine.any() else trail.along
+        along = np.fmod(data.along, self.lengths[mine][0]) if mine.any() else data.along
         ways = np.abs(along[:, None] - (self.along + shares * np.hypot(ux, uy)))
         # Of two ways round a closed outline the shorter.
         ways = np.where(mine, np.minimum(ways, self.lengths - ways), np.inf)
@@ -93,7 +94,7 @@ def moved(
     """Points moved by no more than ``room``, for a curve within ``within`` of them.
 
     ``feet`` are the nearest points of the curve that they had, within the sum of both; ``across``
-    the vectors from what lies across a slit.
+    the vectors from what lies across a clearance.
     """
     offsets = room / (room + within) * (feet - points)
     gaps = np.hypot(*across.T)

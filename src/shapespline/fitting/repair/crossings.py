@@ -1,9 +1,10 @@
 """Curves that cross where their data do not: the pieces that cross are fitted again.
 
-A slit that is narrower than the tolerance closes when both of its sides may move by it. A closer
-fit of everything would keep it open at the price of points everywhere; here only the pieces beside
-it are fitted again, between their nodes and with their tangents, to points that were moved from the
-other side (`slits`); where that does not part them, to their own points closer and closer.
+A clearance that is narrower than the tolerance closes when both of its sides may move by it. A
+closer fit of everything would keep it open at the price of points everywhere; here only the pieces
+beside it are fitted again, between their nodes and with their tangents, to points that were moved
+from the other side (`clearance`); where that does not part them, to their own points closer and
+closer.
 """
 
 from __future__ import annotations
@@ -188,8 +189,8 @@ def _fitted_again(
         row, found = turned_apart(row, found)
     within = step.within * row.fit.tolerance
 
-    def aside(row: PieceAssignment, window: Sequence[AssignedPiece], trail: DataRun) -> FloatArray:
-        return _aside(row, window, trail, within, sides)
+    def aside(row: PieceAssignment, window: Sequence[AssignedPiece], data: DataRun) -> FloatArray:
+        return _aside(row, window, data, within, sides)
 
     windows = [
         Window(begin, end, within)
@@ -201,17 +202,17 @@ def _fitted_again(
 def _aside(
     row: PieceAssignment,
     window: Sequence[AssignedPiece],
-    trail: DataRun,
+    data: DataRun,
     within: float,
     sides: Sides,
 ) -> FloatArray:
-    """The points of a window moved from what lies across a slit."""
-    if not len(trail.points):
-        return trail.points
-    feet = [_feet(part, row.trail.points[part.begin : part.end]) for part in window]
-    across = sides.beside(trail.points, 2 * within).across(trail, row.owner, within)
+    """The points of a window moved from what lies across a clearance."""
+    if not len(data.points):
+        return data.points
+    feet = [_feet(part, row.data.points[part.begin : part.end]) for part in window]
+    across = sides.beside(data.points, 2 * within).across(data, row.owner, within)
     room = row.fit.tolerance - within
-    return moved(trail.points, np.concatenate(feet), across, within, room)
+    return moved(data.points, np.concatenate(feet), across, within, room)
 
 
 def _feet(part: AssignedPiece, points: FloatArray) -> FloatArray:

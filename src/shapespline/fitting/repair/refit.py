@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
     from shapespline.values import Fit
 
-    # The points of a window, of its row and trail, as they are to be fitted.
-    Aim = Callable[[PieceAssignment, Sequence[AssignedPiece], DataRun], FloatArray]
+    # The points of a window, of its row and data, as they are to be fitted.
+    TargetPoints = Callable[[PieceAssignment, Sequence[AssignedPiece], DataRun], FloatArray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,7 @@ class Refit:
 class Window(NamedTuple):
     """Neighbours ``begin`` up to ``end`` in a row, and the distance to fit them within.
 
-    They go through the points ``through`` of its trail.
+    They go through the points ``through`` of its data.
     """
 
     begin: int
@@ -85,7 +85,10 @@ def windows_around(found: Sequence[int], beside: int, count: int) -> list[tuple[
 
 
 def fitted_again(
-    row: PieceAssignment, windows: Sequence[Window], refit: Refit, aim: Aim | None = None
+    row: PieceAssignment,
+    windows: Sequence[Window],
+    refit: Refit,
+    target_points: TargetPoints | None = None,
 ) -> PieceAssignment:
     """The row with some windows of its parts fitted again.
 
@@ -94,21 +97,21 @@ def fitted_again(
     """
     parts = list(row.parts)
     for window in reversed(windows):
-        parts[window.begin : window.end] = _window_again(row, window, refit, aim)
+        parts[window.begin : window.end] = _window_again(row, window, refit, target_points)
     return row._replace(parts=tuple(parts))
 
 
 def _window_again(
-    row: PieceAssignment, window: Window, refit: Refit, aim: Aim | None
+    row: PieceAssignment, window: Window, refit: Refit, target_points: TargetPoints | None
 ) -> tuple[AssignedPiece, ...]:
     """Parts fitted again, with their outer nodes and the smooth tangents there."""
     parts, within = row.parts[window.begin : window.end], window.within
     first, last = parts[0].piece.control_points, parts[-1].piece.control_points
-    trail = row.trail.part(parts[0].begin, parts[-1].end)
-    points = trail.points if aim is None else aim(row, parts, trail)
+    data = row.data.part(parts[0].begin, parts[-1].end)
+    points = data.points if target_points is None else target_points(row, parts, data)
     # What is so near to an outer node is kept by it, and may lie behind it.
-    beyond = _beyond(trail.points, first[0], within)
-    before_last = _beyond(trail.points[::-1], last[-1], within)
+    beyond = _beyond(data.points, first[0], within)
+    before_last = _beyond(data.points[::-1], last[-1], within)
     inner = points[beyond : len(points) - before_last]
     contour = Contour.silently(np.concatenate([first[:1], inner, last[-1:]]), closed=False)
     before = parts[0].begin + beyond - 1
@@ -117,7 +120,7 @@ def _window_again(
     fit = refit(contour, within, _tangents(row, window), through)
     if not fit.kept:
         fit = refit(contour, within, (None, None), through)
-    return located(trail, pieces_of(fit), row.fit.tolerance, parts[0].begin)
+    return located(data, pieces_of(fit), row.fit.tolerance, parts[0].begin)
 
 
 def _beyond(points: FloatArray, node: FloatArray, within: float) -> int:

@@ -194,4 +194,4 @@ def _along(row: PieceAssignment, limits: Limits) -> FloatArray:
 def _first(row: PieceAssignment) -> int:
     """The contour's index of the first point of a row."""
     contour = row.fit.contour
-    return int(np.abs(contour.arc_length - row.trail.along[0] % contour.length).argmin())
+    return int(np.abs(contour.arc_length - row.data.along[0] % contour.length).argmin())

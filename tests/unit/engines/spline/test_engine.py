@@ -12,7 +12,7 @@ from tests.support.shapes import flower, moved, on_circle, rectangle, wave
 from checks import report, two_sided
 from shapespline.analysis import NormalizedContour
 from shapespline.engines.spline import Fairness, attempts, engine, fairness_of
-from shapespline.engines.spline.fairness import GAP_RATIO, SPEED_RATIO
+from shapespline.engines.spline.fairness import INTERVAL_RATIO, SPEED_RATIO
 from shapespline.errors import InvalidInputError
 from shapespline.geometry import two_sided_distance
 from shapespline.monitor import End, Monitor
@@ -39,7 +39,7 @@ def test_what_misses_the_rule_begins_elsewhere_at_last_with_the_polyline(monkeyp
         return search
 
     begin = engine._search
-    broken = Fairness(2 * GAP_RATIO, 1.0, 0, 0)
+    broken = Fairness(2 * INTERVAL_RATIO, 1.0, 0, 0)
     monkeypatch.setattr(engine, "_search", noted)
     monkeypatch.setattr(engine, "fairness_of", lambda *_: broken)
     assert fit_spline(flower(), 0.05).kept
@@ -88,7 +88,7 @@ def test_few_points_keep_the_promise_and_the_product_rule(outline, name, relativ
     assert_promise(fit, contour)
     assert fit.n_control_points <= most
     found = report(fit.spline, contour.points, closed=contour.closed, tolerance=fit.tolerance)
-    assert found.gap_ratio <= GAP_RATIO * (1 + 1e-9)
+    assert found.interval_ratio <= INTERVAL_RATIO * (1 + 1e-9)
     # Samples of the two lie elsewhere.
     assert found.speed_ratio >= 0.99 * SPEED_RATIO
     assert found.crossings == found.data_crossings

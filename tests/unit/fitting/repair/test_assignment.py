@@ -21,8 +21,8 @@ def test_parts_hold_every_point_once_from_any_of_them_on():
         assert bounds[0] == 0
         assert bounds[-1] == len(contour)
         assert bounds == sorted(bounds)
-        assert (np.diff(turned.trail.along) > 0).all()
-        assert {tuple(p) for p in turned.trail.points} == {tuple(p) for p in contour.points}
+        assert (np.diff(turned.data.along) > 0).all()
+        assert {tuple(p) for p in turned.data.points} == {tuple(p) for p in contour.points}
 
 
 def test_points_that_scatter_go_with_their_pieces():

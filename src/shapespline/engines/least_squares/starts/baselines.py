@@ -1,7 +1,7 @@
 """Knots for comparison: at dominant points, and equally spaced for equally spaced parameters.
 
-Both hold the parameters while they place the knots; `balance` is what fits of a given size start
-from otherwise.
+Both hold the parameters while they place the knots; fits of a given size start from error
+equidistribution otherwise.
 """
 
 from __future__ import annotations
@@ -131,12 +131,12 @@ def _fitted(
 def _refined(contour: Contour, start: Balanced, chosen: list[int], index: FloatArray) -> list[int]:
     """The dominant points and one more, in the segment that errs most and has room for it."""
     n = len(contour)
-    off = ((start.spline(start.parameters) - contour.points) ** 2).sum(axis=1)
+    distances_sq = ((start.spline(start.parameters) - contour.points) ** 2).sum(axis=1)
     ends = [*chosen[1:], chosen[0] + n] if contour.closed else chosen[1:]
     worst, best = -1.0, None
     for a, b in zip(chosen, ends, strict=False):
         between = np.arange(a + 1, b)
-        error = float(off[between % n].max()) if len(between) else -1.0
+        error = float(distances_sq[between % n].max()) if len(between) else -1.0
         if error > worst:
             worst, best = error, (a, between)
     if best is None:

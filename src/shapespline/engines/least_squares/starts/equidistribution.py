@@ -1,8 +1,8 @@
-"""A start with a given number of control points: each knot span gets its share of the bending.
+"""A start with a given number of control points: knots by error equidistribution.
 
 On uniform knots, placing the parameters places the knots: a span covers as much of the outline as
 its parameters do. They are spread so that every span bends about as much, then, fit by fit, so
-that every span errs about as much.
+that every span errs about as much (de Boor 1973: a good approximation equidistributes its error).
 """
 
 from __future__ import annotations
