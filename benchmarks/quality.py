@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from tests.support import sizes
 
 import shapespline as ss
 from benchmarks.peers import polyline_points, splprep_points
@@ -38,7 +39,6 @@ OWN = ROOT / "examples" / "data" / "outlines"
 LARGE = ROOT.parent / "shared" / "data"
 TOLERANCES = (0.5, 0.1, 0.02)  # per cent of the box diagonal
 LONGEST = 20_000
-PINNED = ROOT / "tests" / "contract" / "pinned_points.csv"
 # Degrees that a joint turns which is neither smooth nor a corner.
 LITTLE = (1.01, 30.0)
 # What the certified bound may miss of the sampled distance: rounding alone.
@@ -198,12 +198,6 @@ def _at_every_tolerance(outline: Outline, *, peers: bool, **options: object) -> 
     return rows
 
 
-def pin(rows: list[Row]) -> None:
-    """Write the stored points of every fit, for the test that holds them."""
-    lines = [f"{row.name},{row.percent},{row.n_points}\n" for row in rows]
-    PINNED.write_text("outline,percent,points\n" + "".join(lines))
-
-
 def worst(rows: list[Row], count: int = 10) -> list[Row]:
     """Fits with the most points against the better peer, the worst first."""
     return sorted(rows, key=lambda row: -row.n_points / min(row.splprep, row.polyline))[:count]
@@ -223,7 +217,8 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--effort", default="balanced")
     chosen = parser.parse_args(arguments)
     if chosen.pin:
-        pin(run(list(own_corpus()), peers=False, n_jobs=chosen.jobs))
+        rows = run(list(own_corpus()), peers=False, n_jobs=chosen.jobs)
+        sizes.pin({(row.name, row.percent): row.n_points for row in rows})
         return
     large = chosen.all or chosen.every
     outlines = list(large_corpus() if large else own_corpus())[:: chosen.every or 1]

@@ -8,6 +8,7 @@ from benchmarks.scale import wiggly
 from tests.support.engines import fit_spline
 from tests.support.promise import ROUNDING
 from tests.support.shapes import flower, moved, on_circle, rectangle, wave
+from tests.support.sizes import most_points
 
 from checks import report, two_sided
 from shapespline.analysis import NormalizedContour
@@ -18,17 +19,7 @@ from shapespline.geometry import two_sided_distance
 from shapespline.monitor import End, Monitor
 from shapespline.values.contour import Contour
 
-# Control points with the product rule at 0.1 and 0.5 % of the box diagonal: no more than these.
-MOST_POINTS = [
-    ("hand620_closed", 0.001, 42),
-    ("hand620_closed", 0.005, 29),
-    ("leaf840_closed", 0.001, 61),
-    ("leaf840_closed", 0.005, 35),
-    ("plane1100_closed", 0.001, 46),
-    ("plane1100_closed", 0.005, 30),
-    ("loop500_open", 0.001, 13),
-    ("loop500_open", 0.005, 11),
-]
+PEERS = ("hand620_closed", "leaf840_closed", "plane1100_closed", "loop500_open")
 
 
 def test_what_misses_the_rule_begins_elsewhere_at_last_with_the_polyline(monkeypatch):
@@ -80,13 +71,14 @@ def assert_promise(fit, contour):
     assert found.larger <= fit.tolerance + ROUNDING * contour.box_diagonal
 
 
-@pytest.mark.parametrize(("name", "relative", "most"), MOST_POINTS)
+@pytest.mark.parametrize("percent", [0.1, 0.5])
+@pytest.mark.parametrize("name", PEERS)
 @pytest.mark.slow
-def test_few_points_keep_the_promise_and_the_product_rule(outline, name, relative, most):
+def test_few_points_keep_the_promise_and_the_product_rule(outline, name, percent):
     contour = outline(name)
-    fit = fit_spline(contour, relative * contour.box_diagonal)
+    fit = fit_spline(contour, percent / 100 * contour.box_diagonal)
     assert_promise(fit, contour)
-    assert fit.n_control_points <= most
+    assert fit.n_control_points <= most_points(name, percent, "spline alone")
     found = report(fit.spline, contour.points, closed=contour.closed, tolerance=fit.tolerance)
     assert found.interval_ratio <= INTERVAL_RATIO * (1 + 1e-9)
     # Samples of the two lie elsewhere.
