@@ -5,23 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from shapespline.fitting import Request, Settings
-from shapespline.fitting.problem import Problem
-from shapespline.fitting.solve import search
-from shapespline.fitting.verify import finished
+from shapespline.fitting.solve import answer
 from shapespline.monitor import Monitor
 
 
 def fit_pieces(contour, tolerance, **options):
     """The Fit that the strategies in pieces make of a contour, nothing repaired."""
     request = Request.of(contour, None, Settings(tolerance=tolerance, **options))
-    return _found(replace(request, pieces_only=True), Monitor())
+    return answer(replace(request, pieces_only=True), Monitor())
 
 
 def fit_spline(contour, tolerance, monitor=None, **options):
     """The Fit that knot removal makes of a contour."""
     settings = Settings(tolerance=tolerance, form="spline", **options)
-    return _found(Request.of(contour, None, settings), monitor or Monitor())
-
-
-def _found(request, monitor):
-    return finished(search(Problem(request), monitor), monitor)
+    return answer(Request.of(contour, None, settings), monitor or Monitor())

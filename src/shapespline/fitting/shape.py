@@ -9,12 +9,11 @@ import numpy as np
 
 from shapespline.analysis import shared_arcs
 from shapespline.errors import InvalidInputError
-from shapespline.fitting.problem import Problem
 from shapespline.fitting.repair import uncrossed
 from shapespline.fitting.request import Request
 from shapespline.fitting.settings import Settings, tolerance_length
-from shapespline.fitting.solve import search, solve
-from shapespline.fitting.verify import finished, verified_fit
+from shapespline.fitting.solve import answer, solve
+from shapespline.fitting.verify import verified_fit
 from shapespline.geometry import backwards, joined, reversed_curve
 from shapespline.monitor import Monitor
 from shapespline.validation import checked_flag
@@ -148,8 +147,7 @@ def _solved(request: DrawingRequest, callback: Callback | None) -> list[Fit]:
         return Monitor(callback, request.settings.time_limit)
 
     def ask(sub_request: Request) -> Fit:
-        own = monitor()
-        return finished(search(Problem(sub_request), own), own)
+        return answer(sub_request, monitor())
 
     if request.shared_boundaries:
         return _with_shared(request, monitor)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from shapespline.fitting.choose import Shortlist
@@ -35,10 +36,7 @@ def solve(request: Request, monitor: Monitor) -> Fit:
     >>> solve(corner, Monitor()).n_stored_points
     3
     """
-
-    def ask(sub_request: Request) -> Fit:
-        return finished(search(Problem(sub_request), monitor), monitor)
-
+    ask = partial(answer, monitor=monitor)
     fit = None
     if request.tolerance is not None and request.is_plain and len(request.contour) >= MANY_POINTS:
         fit = streamed(request, monitor, search)
@@ -49,6 +47,11 @@ def solve(request: Request, monitor: Monitor) -> Fit:
     if request.tolerance is not None and request.weights is not None:
         fit = respect_weights(fit, request, ask)
     return replace(fit, outliers=request.left_out)
+
+
+def answer(request: Request, monitor: Monitor) -> Fit:
+    """The fit of a request or a sub-request by the plan alone, nothing repaired."""
+    return finished(search(Problem(request), monitor), monitor)
 
 
 def search(problem: Problem, monitor: Monitor) -> Verified:
