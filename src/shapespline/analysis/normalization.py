@@ -134,11 +134,11 @@ class NormalizedContour(NamedTuple):
         return 2.0 * float(np.sqrt((away**2).sum(axis=1).max()))
 
     @property
-    def place(self) -> IntArray:
+    def new_index(self) -> IntArray:
         """For every point of the data its index in ``contour``, shape (n,), while all are there."""
-        place = np.empty(len(self.order), dtype=np.int64)
-        place[self.order] = np.arange(len(self.order))
-        return place
+        index = np.empty(len(self.order), dtype=np.int64)
+        index[self.order] = np.arange(len(self.order))
+        return index
 
     def restored(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
         """Pieces in the unit and direction of the data."""

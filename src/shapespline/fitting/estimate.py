@@ -205,7 +205,7 @@ class ObservedPieces:
             return np.empty(0, dtype=np.int64)
         if isinstance(corners, str):
             return runs.kept_corners()
-        return np.unique(self.estimation.normalized.place[np.asarray(corners, dtype=np.int64)])
+        return np.unique(self.estimation.normalized.new_index[np.asarray(corners, dtype=np.int64)])
 
 
 @dataclass(frozen=True)
@@ -222,7 +222,7 @@ class SmoothedSpline:
         found = _finished(problem, ordered, self.estimation.start, None, monitor)
         spline, candidate = found.spline, _candidate(problem, found)
         distances = two_sided_distance(spline, ordered)
-        parameters = distances.parameters[normalized.place]
+        parameters = distances.parameters[normalized.new_index]
         if normalized.reversed:
             spline, parameters = reversed_curve(spline), 1.0 - parameters
         found_distances = distances._replace(parameters=parameters)

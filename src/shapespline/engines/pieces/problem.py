@@ -75,7 +75,7 @@ class PiecesProblem(NamedTuple):
         return cls(
             normalized,
             search_tolerance,
-            np.unique(normalized.place[given.astype(np.int64)]),
+            np.unique(normalized.new_index[given.astype(np.int64)]),
             low_turn,
             constraints,
         )
@@ -86,14 +86,14 @@ class PiecesProblem(NamedTuple):
         normalized = self.normalized.thinned(self.tolerance, stay)
         if normalized is self.normalized:
             return self
-        place = self.normalized.place[normalized.order]
+        index = self.normalized.new_index[normalized.order]
         return self._replace(
             normalized=normalized,
             tolerance=self.tolerance - normalized.error_used,
-            corners=np.flatnonzero(np.isin(place, self.corners)),
-            low_turn=self.low_turn[place],
+            corners=np.flatnonzero(np.isin(index, self.corners)),
+            low_turn=self.low_turn[index],
             constraints=self.constraints._replace(
-                through=np.flatnonzero(np.isin(place, self.constraints.through))
+                through=np.flatnonzero(np.isin(index, self.constraints.through))
             ),
         )
 
@@ -105,5 +105,5 @@ def _in_order(constraints: Constraints, normalized: NormalizedContour) -> Constr
         begin, end = (None if t is None else -t for t in (end, begin))
     through = constraints.through
     if len(through):
-        through = np.unique(normalized.place[through])
+        through = np.unique(normalized.new_index[through])
     return constraints._replace(through=through, tangents=(begin, end))

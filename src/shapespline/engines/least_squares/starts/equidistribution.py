@@ -141,12 +141,12 @@ def _balanced_by_error(problem: CurveProblem, x: FloatArray) -> FloatArray:
     n_spans = len(curve.breakpoints) - 1
     residuals = curve(parameters) - problem.points
     lap = np.floor(parameters) if curve.periodic else np.zeros(len(parameters))
-    place = np.clip(parameters - lap, 0.0, 1.0)
-    span = np.minimum((place * n_spans).astype(np.int64), n_spans - 1)
+    wrapped = np.clip(parameters - lap, 0.0, 1.0)
+    span = np.minimum((wrapped * n_spans).astype(np.int64), n_spans - 1)
     total = np.bincount(span, (residuals**2).sum(axis=1), n_spans)
     error = np.sqrt(total / np.maximum(np.bincount(span, minlength=n_spans), 1))
     share = (error / max(float(error.mean()), np.finfo(float).tiny) + LEAST_ERROR) ** ERROR_EXPONENT
     if curve.periodic and n_spans > 2:
         share = 0.25 * (np.roll(share, 1) + 2 * share + np.roll(share, -1))
     edges = np.concatenate([[0.0], np.cumsum(share)])
-    return lap + np.interp(place, np.arange(n_spans + 1) / n_spans, edges / edges[-1])
+    return lap + np.interp(wrapped, np.arange(n_spans + 1) / n_spans, edges / edges[-1])
