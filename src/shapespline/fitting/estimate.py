@@ -45,11 +45,11 @@ if TYPE_CHECKING:
 
 # A smoothed outline is followed within one of these numbers of its standard errors (FIT-01).
 STANDARD_ERRORS = (1.5, 2.0, 3.0)
-# Pieces must not cost more than this part of what one spline costs: with corners that are proven,
-# which everybody sees, and without.
+# Pieces may cost at most this part of what one spline costs: with corners that are proven, which
+# everybody sees, and without.
 CHARACTER, NO_CORNERS = 1.02, 0.97
-# A datum this many bands away tells that the estimate has missed something: a jump, a spike, a
-# track too sparse to be smoothed (FIT-06).
+# If a point is farther than so many bands away, the estimate has missed something: a jump, a spike,
+# a track too sparse to be smoothed (FIT-06).
 FARTHEST = 1.5
 
 

@@ -19,9 +19,9 @@ class PiecesProblem(NamedTuple):
     """What a search within a tolerance knows about a contour before it begins.
 
     ``normalized`` holds the points in canonical order and unit, ``tolerance`` is in that unit, too.
-    ``corners`` are indices of its points, ``low_turn`` (n,) is 1 where the outline hardly turns,
-    ``constraints`` are in its order and direction. ``dense`` are points as they came, in that unit,
-    where the contour holds thinned ones.
+    ``corners`` are indices of its points, ``low_turn`` (n,) is 1 where the data turn less than
+    `LOW_TURN`, ``constraints`` are in its order and direction. ``dense`` are points as they came,
+    in that unit, where the contour holds thinned ones.
     """
 
     normalized: NormalizedContour
@@ -81,7 +81,7 @@ class PiecesProblem(NamedTuple):
         )
 
     def thinned(self) -> PiecesProblem:
-        """The outline without the points that the search does not need, its tolerance less so."""
+        """The problem without points that no search needs, its tolerance less by their error."""
         stay = np.union1d(self.corners, self.constraints.through)
         normalized = self.normalized.thinned(self.tolerance, stay)
         if normalized is self.normalized:

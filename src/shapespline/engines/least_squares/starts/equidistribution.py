@@ -23,14 +23,15 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
     from shapespline.values import Contour
 
-# CPDA chord in points, and the fewest points it is taken on.
+# Chord of the CPDA in points, and the fewest points that it is measured on.
 CHORD = 8
 FEWEST_SAMPLES = 400
 # Density of knots: a constant and the root of the curvature in units of the box diagonal. Measured
 # on four outlines: exponents 0.33 to 0.7 and constants 0.3 to 3 differ by less than the rounds do
 # (LSQ-02).
 BEND_EXPONENT = 0.5
-# Rounds of fitting and spreading again, and how strongly the error counts in them (LSQ-02).
+# Rounds of fitting and spreading the parameters again, the power of the error in them, and what is
+# added to the error of every span (LSQ-02).
 ROUNDS = 6
 ERROR_EXPONENT = 0.4
 LEAST_ERROR = 0.05
