@@ -66,6 +66,13 @@ def test_files_that_are_named_exist(page):
             assert any(place.exists() for place in places), name
 
 
+@pytest.mark.parametrize("page", sorted((ROOT / "docs" / "engines").glob("*.md")), ids=label)
+def test_formulas_in_the_text_stand_on_one_line(page):
+    # A formula that a line break cuts is shown as its source.
+    text = re.sub(r"\$\$.*?\$\$", "", page.read_text("utf-8"), flags=re.DOTALL)
+    assert not [line for line in text.splitlines() if line.count("$") % 2]
+
+
 WORDS = {
     word
     for folder in ("src", "kernels", "tests", "benchmarks", "checks")

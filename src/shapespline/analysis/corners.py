@@ -25,22 +25,22 @@ if TYPE_CHECKING:
 # than the second has a low turn, and is not looked at again. Neither is about joints of a curve:
 # those are smooth by the values' `SMOOTH_TURN` (PIE-13, PIE-22).
 LEAST_TURN, LOW_TURN = np.radians(25.0), np.radians(8.0)
-# The shortest length on either side that is looked at: in median steps, in tolerances (ANA-03).
+# The test looks at a length on either side: at least so many median steps and tolerances (ANA-03).
 STEPS = 5.0
 TOLERANCES = 8.0
-# A bend that is seen to be round from that near, in tolerances, is no corner. Looked at where that
-# is nearer than the length above by a third (ANA-04).
+# A bend that is round within the first number of tolerances is no corner. The test looks so near
+# where that is less than the second part of the length above (ANA-04).
 CLOSE_TOLERANCES, CLOSER = 2.0, 0.65
 # A parabola over a length L sampled at spacing d with noise sigma has a slope error of about
 # sigma sqrt(d / L^3) times a constant; this one makes it a small part of LEAST_TURN.
 NOISE_FACTOR = 132.0
-# Longer lengths, in parts of the outline, look beyond its features.
+# Lengths beyond this part of the outline look past its features.
 LONGEST_PART = 0.125
 # Neighbours on each side that are averaged for the arc length, until the noise in a difference is
 # this part of a step.
 HALF_WINDOWS = (1, 2, 4, 8, 16, 32)
 QUIET_STEP = 0.3
-# Of more points every so many-th is looked at first.
+# Of more points the test first looks at every so many-th.
 MOST_POINTS = 10_000
 # Around a bend that the points resolve the curvature changes by no more than this part of its peak
 # from one to the next; at a corner it springs up, and where a line runs into an arc (ANA-05).

@@ -23,18 +23,19 @@ if TYPE_CHECKING:
     from shapespline.values import BSplineCurve, Piece
 from shapespline.geometry import reversed_curve
 
-# What a search may leave aside: points this part of the tolerance from the polyline without them,
-# unless its chords grow longer than this part of the extent. It must be worth it: of so few
-# points, or if more than this part of them stay, none is left aside (ANA-08).
+# Thinning leaves out points within this part of the tolerance from the polyline without them, but
+# makes no chord longer than this part of the extent. It leaves out none of so few points, and none
+# if more than this part of them would stay (ANA-08).
 THINNING = 0.01
 LONGEST_CHORD = 0.005
 FEWEST_POINTS = 500
 WORTH_THINNING = 0.7
-# So many points that do not thin scatter, or tell of more than anybody can see: averages stand for
-# them, if these take no more than this part of the tolerance (ANA-12).
+# More points that do not thin scatter, or show more than anybody can see. Averages stand for them
+# if their error is at most this part of the tolerance (ANA-12).
 MANY_POINTS = 20_000
 MOST_SCATTER = 0.9
-# Readings of an outline are compared all at once by so many distances, then two by two.
+# The canonical order compares all readings of an outline by so many distances at once, then two by
+# two.
 HEAD = 16
 
 
@@ -134,11 +135,11 @@ class NormalizedContour(NamedTuple):
         return 2.0 * float(np.sqrt((away**2).sum(axis=1).max()))
 
     @property
-    def place(self) -> IntArray:
+    def new_index(self) -> IntArray:
         """For every point of the data its index in ``contour``, shape (n,), while all are there."""
-        place = np.empty(len(self.order), dtype=np.int64)
-        place[self.order] = np.arange(len(self.order))
-        return place
+        index = np.empty(len(self.order), dtype=np.int64)
+        index[self.order] = np.arange(len(self.order))
+        return index
 
     def restored(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
         """Pieces in the unit and direction of the data."""

@@ -11,12 +11,12 @@ from shapespline.analysis.noise import noise_level
 if TYPE_CHECKING:
     from shapespline.values import Contour
 
-# What clean data cannot show or nobody can see: a part of the median distance between points, but
-# within these parts of the box diagonal.
+# Clean data cannot show, and nobody can see, less than this part of the median distance between
+# points; the length lies within these parts of the box diagonal.
 SAMPLING_PART = 0.1
 BOX_PARTS = (0.0005, 0.001)
-# Standard deviations that a band about the data holds. Noise that is known from the source, a
-# picture's, is bounded and alike from point to point: three hold it.
+# A band about the data is so many standard deviations wide. Noise that the source knows, a
+# picture's, is bounded and alike from point to point: three are enough.
 NOISE_BAND, ACCURACY_BAND = 4.0, 3.0
 
 

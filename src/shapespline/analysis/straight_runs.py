@@ -17,16 +17,17 @@ from shapespline.values import Contour
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray, IntArray
 
-# So many points that spread across a line by no more than this part of the tolerance are a straight
-# run of the data, which one smooth spline would bend (ANA-10, FIT-08).
+# A straight run has more than so many points, which spread across a line by at most this part of
+# the tolerance. One smooth spline would bend it (ANA-10, FIT-08).
 FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1
-# A chord is a run, and not one of a row along an arc, if most of it stays one chord within a
-# fiftieth of the distance, where an arc makes seven and an inflection four. It is longer than some
-# tolerances.
+# A chord is a straight run, and not one of a row along an arc, if this part of it stays one chord
+# at a fiftieth of the distance (an arc makes seven, an inflection four), and if it is longer than
+# so many tolerances.
 FINER, ONE_CHORD, LEAST_TOLERANCES = 0.02, 0.6, 10.0
-# An edge so many times as long as the median was drawn as a line, not sampled (ANA-11).
+# An edge so many times as long as the median edge was drawn as a line (ANA-11).
 LONG_EDGE = 8.0
-# Of bends sixteen times as much is left at twice the distance, of scatter as much.
+# At twice the distance of points a cubic leaves sixteen times as much of a bend, but as much of
+# scatter as before; beyond this factor it was a bend.
 BEND_GROWTH = 4.0
 
 

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from shapespline.fitting.problem import Problem
     from shapespline.fitting.verify import Verified
 
-# Beyond this part of the number of points the data are rough: such a curve follows, it tells
+# A curve that stores more than this part of the number of points follows rough data; it tells
 # nothing of what was drawn, and lines may be the smaller (PIE-05).
 ROUGH_PART = 0.3
 

@@ -45,11 +45,11 @@ if TYPE_CHECKING:
 
 # A smoothed outline is followed within one of these numbers of its standard errors (FIT-01).
 STANDARD_ERRORS = (1.5, 2.0, 3.0)
-# Pieces must not cost more than this part of what one spline costs: with corners that are proven,
-# which everybody sees, and without.
+# Pieces may cost at most this part of what one spline costs: with corners that are proven, which
+# everybody sees, and without.
 CHARACTER, NO_CORNERS = 1.02, 0.97
-# A datum this many bands away tells that the estimate has missed something: a jump, a spike, a
-# track too sparse to be smoothed (FIT-06).
+# If a point is farther than so many bands away, the estimate has missed something: a jump, a spike,
+# a track too sparse to be smoothed (FIT-06).
 FARTHEST = 1.5
 
 
@@ -205,7 +205,7 @@ class ObservedPieces:
             return np.empty(0, dtype=np.int64)
         if isinstance(corners, str):
             return runs.kept_corners()
-        return np.unique(self.estimation.normalized.place[np.asarray(corners, dtype=np.int64)])
+        return np.unique(self.estimation.normalized.new_index[np.asarray(corners, dtype=np.int64)])
 
 
 @dataclass(frozen=True)
@@ -222,7 +222,7 @@ class SmoothedSpline:
         found = _finished(problem, ordered, self.estimation.start, None, monitor)
         spline, candidate = found.spline, _candidate(problem, found)
         distances = two_sided_distance(spline, ordered)
-        parameters = distances.parameters[normalized.place]
+        parameters = distances.parameters[normalized.new_index]
         if normalized.reversed:
             spline, parameters = reversed_curve(spline), 1.0 - parameters
         found_distances = distances._replace(parameters=parameters)

@@ -42,8 +42,8 @@ if TYPE_CHECKING:
     from shapespline.fitting.verify import Verified
     from shapespline.monitor import Monitor
 
-# Beyond this part of the vertices of a polyline found in one pass, which are more than need be,
-# lines are looked at (PIE-20).
+# Lines are looked at beyond this part of the vertices of a polyline found in one pass, which has
+# more of them than it needs (PIE-20).
 CHORDS_PART = 0.7
 
 

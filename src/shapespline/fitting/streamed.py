@@ -144,7 +144,7 @@ def _pieces_problem(
     beside = np.minimum((indices / stride).astype(np.int64), len(sample) - 1)
     low_turn = (found.turns[beside] < LOW_TURN).astype(np.int64)
     chosen = [_farthest(thinned, indices, stride * at, 2.0 * stride) for at in found.indices]
-    places = np.unique(normalized.place[np.array(chosen, dtype=np.int64)]) if chosen else empty
+    places = np.unique(normalized.new_index[np.array(chosen, dtype=np.int64)]) if chosen else empty
     return PiecesProblem(
         normalized, scaled, places, low_turn[normalized.order], constraints, dense=seen
     )

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from shapespline.streaming.stream import PointStream
     from shapespline.typing import FloatArray, IntArray
 
-# Parts of the tolerance that thinning may take. Clean points are thinned to few vertices by the
-# first; averages, where the points are none, by that much as well.
+# Thinning may use these parts of the tolerance, one after another. The first leaves few vertices of
+# clean points; averages of others are thinned by it as well.
 THINNINGS = (0.01, 0.03, 0.1, 0.3)
 FEW_VERTICES, MOST_VERTICES = 20_000, 200_000
 

@@ -20,14 +20,15 @@ if TYPE_CHECKING:
 # leave an rms distance to the truth of 0.061 / 0.052 / 0.051 / 0.055 of a box diagonal of 100
 # (LSQ-04).
 PENALTY = 3.5
-# Sizes tried grow by this factor, up to this part of the number of points; the search ends when so
-# many in a row were no better, but not before this size: an outline with many features shows
-# nothing until there is a control point for each. Then those around the best, in steps of a part.
+# Sizes grow by this factor, up to this part of the number of points. The search ends when so many
+# sizes in a row were no better, but not before this size: an outline with many features shows
+# nothing until there is a control point for each. Then it tries sizes around the best one, in steps
+# of this part of it.
 SIZE_FACTOR = 1.25
 LARGEST_PART = 0.25
 PATIENCE, AT_LEAST = 3, 32
 FINEST = 0.06
-# Points that the search for a size looks at: more tell it nothing new.
+# The search for a size looks at no more points: they would tell it nothing new.
 SEARCH_POINTS = 10_000
 # The start of a least-squares fit has been balanced already: what is left falls by 1e-4 and less.
 FINAL_LIMITS = Limits(max_iterations=300, max_evaluations=1000, relative_decrease=1e-4)

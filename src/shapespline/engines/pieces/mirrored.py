@@ -15,11 +15,12 @@ if TYPE_CHECKING:
     from shapespline.engines.pieces.problem import PiecesProblem
     from shapespline.typing import FloatArray, IntArray
 
-# The outline and its mirror image may differ by this part of the tolerance; the fit has the rest.
+# An outline is symmetric if it differs from its mirror image by at most this part of the tolerance;
+# the fit has the rest.
 LARGEST_PART = 0.2
-# A corner that is so near to the axis, in tolerances, lies on it.
+# A corner lies on the axis if it is at most so many tolerances away from it.
 ON_AXIS = 4.0
-# Points nearer to a crossing along the outline, in parts of its length, are that crossing.
+# A point is the crossing itself if it lies nearer to it, in parts of the outline's length.
 CLOSE = 1e-6
 # Two lines that turn less at the axis are one, radians: more than rounding, for the axis itself is
 # found to some digits only; less than any joint that was drawn.

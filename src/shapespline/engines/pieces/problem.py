@@ -19,9 +19,9 @@ class PiecesProblem(NamedTuple):
     """What a search within a tolerance knows about a contour before it begins.
 
     ``normalized`` holds the points in canonical order and unit, ``tolerance`` is in that unit, too.
-    ``corners`` are indices of its points, ``low_turn`` (n,) is 1 where the outline hardly turns,
-    ``constraints`` are in its order and direction. ``dense`` are points as they came, in that unit,
-    where the contour holds thinned ones.
+    ``corners`` are indices of its points, ``low_turn`` (n,) is 1 where the data turn less than
+    `LOW_TURN`, ``constraints`` are in its order and direction. ``dense`` are points as they came,
+    in that unit, where the contour holds thinned ones.
     """
 
     normalized: NormalizedContour
@@ -75,25 +75,25 @@ class PiecesProblem(NamedTuple):
         return cls(
             normalized,
             search_tolerance,
-            np.unique(normalized.place[given.astype(np.int64)]),
+            np.unique(normalized.new_index[given.astype(np.int64)]),
             low_turn,
             constraints,
         )
 
     def thinned(self) -> PiecesProblem:
-        """The outline without the points that the search does not need, its tolerance less so."""
+        """The problem without points that no search needs, its tolerance less by their error."""
         stay = np.union1d(self.corners, self.constraints.through)
         normalized = self.normalized.thinned(self.tolerance, stay)
         if normalized is self.normalized:
             return self
-        place = self.normalized.place[normalized.order]
+        index = self.normalized.new_index[normalized.order]
         return self._replace(
             normalized=normalized,
             tolerance=self.tolerance - normalized.error_used,
-            corners=np.flatnonzero(np.isin(place, self.corners)),
-            low_turn=self.low_turn[place],
+            corners=np.flatnonzero(np.isin(index, self.corners)),
+            low_turn=self.low_turn[index],
             constraints=self.constraints._replace(
-                through=np.flatnonzero(np.isin(place, self.constraints.through))
+                through=np.flatnonzero(np.isin(index, self.constraints.through))
             ),
         )
 
@@ -105,5 +105,5 @@ def _in_order(constraints: Constraints, normalized: NormalizedContour) -> Constr
         begin, end = (None if t is None else -t for t in (end, begin))
     through = constraints.through
     if len(through):
-        through = np.unique(normalized.place[through])
+        through = np.unique(normalized.new_index[through])
     return constraints._replace(through=through, tangents=(begin, end))

@@ -22,16 +22,16 @@ if TYPE_CHECKING:
 
 # Candidate nodes on a whole outline, whatever the stride (PIE-23).
 LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
-# Pieces shorter than this part of the curve are degenerate: roundings.
+# A piece shorter than this part of the curve is degenerate: rounding made it.
 DEGENERATE_PART = 1e-12
-# A corner that the fit turns by less than this part of what makes a corner is given up.
+# The search gives up a corner that the fit turns by less than this part of `LEAST_TURN`.
 RELEASE = 0.7
-# Control points may move by this part of the tolerance to make a tangent exact: it is less than
-# what the first tolerance factor leaves.
+# Control points move by at most this part of the tolerance to make a tangent exact. That moves a
+# cubic by 4/9 of it at most, less than what the first tolerance factor leaves.
 LARGEST_MOVE = 0.002
 # The same for a fit to noisy points, in standard deviations of the noise.
 OBSERVED_MOVE = 0.1
-# What the kernel is told about the joint at a point, summed.
+# These codes tell the kernel about the joint at a point; they add up.
 CORNER, PINNED, AFTER_EXTENSION, BEFORE_EXTENSION = 1, 2, 4, 8
 
 
@@ -41,8 +41,8 @@ class SearchBudget(NamedTuple):
     ``stride`` is the distance of candidate nodes in points, but more of them stand where the
     polyline through them would leave the data by ``resolution`` tolerances. How far sections reach
     is found from one in ``every`` of them; ``passes`` is how often moves are tried. A ``thorough``
-    search tries bold ones, too, takes more neighbours along, and begins again where smooth joints
-    took points.
+    search tries moves that save more points, too, takes more neighbours along, and tries all moves
+    again where smooth joints took points.
     """
 
     stride: int
@@ -66,10 +66,10 @@ BUDGETS: dict[Effort, tuple[SearchBudget, ...]] = {
 
 
 class PiecesSolver(NamedTuple):
-    """What stays the same over the runs on one outline.
+    """The search for pieces of one problem: what stays the same over its runs.
 
     Corners are candidate nodes always and nodes if they are kept; ``smooth`` makes other joints
-    tangent, where the data have a low turn at the price of some more points.
+    tangent; where the data have a low turn it may spend some more points on that.
     """
 
     problem: PiecesProblem
@@ -151,7 +151,7 @@ def _unpacked(
 
 
 def _without_degenerate_pieces(pieces: list[Piece]) -> tuple[Piece, ...]:
-    """The pieces but for those of next to no length, whose neighbours then meet exactly."""
+    """The pieces without degenerate ones; the neighbours of those meet exactly."""
     lengths = [piece.polygon_length for piece in pieces]
     least = DEGENERATE_PART * sum(lengths)
     kept = [p for p, length in zip(pieces, lengths, strict=True) if length > least]

@@ -16,10 +16,10 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
     from shapespline.values import Contour, Fit
 
-# Curves are looked at as polylines within this part of their tolerance.
+# Repairs look at curves as polylines within this part of their tolerance.
 SAMPLING_PART = 0.02
-# A node lies between two of the points whose arc length is this near to its own, in parts of the
-# piece before it and in tolerances (FIT-13).
+# A node is first looked for among points whose arc length differs from its own by at most this part
+# of the piece before it and so many tolerances (FIT-13).
 ALONG, TOLERANCES = 0.3, 4.0
 
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 # Two places of an outline lie across a clearance if the way along it is so many times their
 # distance.
 AROUND = 4.0
-# Pairs of a point and a segment looked at at a time.
+# So many pairs of a point and a segment are looked at in one go.
 CHUNK = 20_000
 
 

@@ -54,8 +54,8 @@ class Step(NamedTuple):
     moved: bool
 
 
-# Where the pieces alone are not enough a node is to blame, which goes with both of its pieces. The
-# last two follow the points as they came, closer (FIT-11).
+# Where the pieces alone are not enough a node is to blame; then the neighbours are fitted again
+# with them. The last two steps follow the points as they came, closer (FIT-11).
 STEPS = (
     Step(3 / 4, 0, True),
     Step(3 / 4, 1, True),
@@ -64,7 +64,7 @@ STEPS = (
     Step(1 / 8, 1, False),
     Step(1 / 32, 1, False),
 )
-# Searches that follow the points. What was estimated from noisy ones would follow their noise.
+# These methods follow the points. A curve that was estimated from noisy points would follow noise.
 FOLLOWING = ("sections", "removal")
 CROSSES = "it crosses a curve where the data do not"
 

@@ -37,12 +37,14 @@ if TYPE_CHECKING:
     # Everything within a distance, through some of the points.
     Whole = Callable[[float, "IntArray | None"], Fit]
 
-# How many neighbours go with a piece that holds heavy points: at first none, at last those that
-# share its nodes, which may be what is too far away.
+# So many neighbours on each side are fitted again with a piece that holds heavy points: none at
+# first, then those that share its nodes, for a node may be what is too far away.
 BESIDE = (0, 1, 2)
-# Parts of it within which one curve is still followed closely for the sake of a few points.
+# One curve is fitted closer as a whole for a few points only if their limits are at least this part
+# of the tolerance.
 MODEST = 0.1
-# A window may go through so many points that are too far away, or closer to all its points.
+# A window goes through up to so many points that are too far away; beyond, it comes closer to all
+# of its points.
 FEW = 8
 # Parts of the tolerance within which everything is fitted; at last within the least limit.
 CLOSER = (0.7, 0.5, 0.25, 0.0)

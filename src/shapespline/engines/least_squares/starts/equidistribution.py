@@ -23,14 +23,15 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
     from shapespline.values import Contour
 
-# CPDA chord in points, and the fewest points it is taken on.
+# Chord of the CPDA in points, and the fewest points that it is measured on.
 CHORD = 8
 FEWEST_SAMPLES = 400
 # Density of knots: a constant and the root of the curvature in units of the box diagonal. Measured
 # on four outlines: exponents 0.33 to 0.7 and constants 0.3 to 3 differ by less than the rounds do
 # (LSQ-02).
 BEND_EXPONENT = 0.5
-# Rounds of fitting and spreading again, and how strongly the error counts in them (LSQ-02).
+# Rounds of fitting and spreading the parameters again, the power of the error in them, and what is
+# added to the error of every span (LSQ-02).
 ROUNDS = 6
 ERROR_EXPONENT = 0.4
 LEAST_ERROR = 0.05
@@ -141,12 +142,12 @@ def _balanced_by_error(problem: CurveProblem, x: FloatArray) -> FloatArray:
     n_spans = len(curve.breakpoints) - 1
     residuals = curve(parameters) - problem.points
     lap = np.floor(parameters) if curve.periodic else np.zeros(len(parameters))
-    place = np.clip(parameters - lap, 0.0, 1.0)
-    span = np.minimum((place * n_spans).astype(np.int64), n_spans - 1)
+    wrapped = np.clip(parameters - lap, 0.0, 1.0)
+    span = np.minimum((wrapped * n_spans).astype(np.int64), n_spans - 1)
     total = np.bincount(span, (residuals**2).sum(axis=1), n_spans)
     error = np.sqrt(total / np.maximum(np.bincount(span, minlength=n_spans), 1))
     share = (error / max(float(error.mean()), np.finfo(float).tiny) + LEAST_ERROR) ** ERROR_EXPONENT
     if curve.periodic and n_spans > 2:
         share = 0.25 * (np.roll(share, 1) + 2 * share + np.roll(share, -1))
     edges = np.concatenate([[0.0], np.cumsum(share)])
-    return lap + np.interp(place, np.arange(n_spans + 1) / n_spans, edges / edges[-1])
+    return lap + np.interp(wrapped, np.arange(n_spans + 1) / n_spans, edges / edges[-1])
