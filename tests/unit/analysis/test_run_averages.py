@@ -49,7 +49,7 @@ def test_runs_by_hand():
     found = averages(points, 3)
     assert found.nodes[:, 0].tolist() == [1, 4, 7, 10]
     assert found.indices.tolist() == [1, 4, 7, 10]
-    assert found.off == 0
+    assert found.error_bound == 0
     assert [len(run) for run in (*found.head, *found.tail)] == [3, 3, 3, 3]
     # At least four runs; points that are to be alone are runs of their own.
     assert averages(points, 100).nodes[:, 0].tolist() == [1, 4, 7, 10]

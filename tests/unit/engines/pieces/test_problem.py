@@ -59,7 +59,7 @@ def test_thinning_leaves_corners_and_points_to_go_through():
     assert len(thin.normalized.contour) < 2000
     assert sorted(points_of(thin, thin.corners)) == [500, 2500]
     assert sorted(points_of(thin, thin.constraints.through)) == [11, 1234]
-    assert thin.tolerance == problem.tolerance - thin.normalized.slack
+    assert thin.tolerance == problem.tolerance - thin.normalized.error_used
     assert len(thin.low_turn) == len(thin.normalized.contour)
     small = PiecesProblem.of(flower(300), 0.1, "auto")
     assert small.thinned() is small

@@ -84,7 +84,7 @@ def test_a_window_goes_to_its_own_points_with_its_ends_held(contour):
     assert within == 0.005
     assert through == []
     begin, end = row.parts[1].begin, row.parts[2].end
-    own = {tuple(p) for p in row.trail.points[begin:end]}
+    own = {tuple(p) for p in row.data.points[begin:end]}
     assert {tuple(p) for p in given.points[1:-1]} <= own
     assert len(given) >= end - begin - 4
     nodes = row.parts[1].piece.control_points[0], row.parts[2].piece.control_points[-1]
@@ -102,7 +102,7 @@ def test_a_window_goes_to_its_own_points_with_its_ends_held(contour):
         assert np.abs(turns(new, closed=True)).max() <= SMOOTH
     bounds = [part.begin for part in again.parts] + [again.parts[-1].end]
     assert bounds == sorted(bounds)
-    assert bounds[-1] - bounds[0] == len(row.trail.points)
+    assert bounds[-1] - bounds[0] == len(row.data.points)
 
 
 def test_points_of_a_window_are_gone_through_and_named_in_it():
@@ -111,7 +111,7 @@ def test_points_of_a_window_are_gone_through_and_named_in_it():
     at = (begin + end) // 2
     fitted_again(row, [Window(1, 3, 0.02, (at,))], asked)
     (given, _, _, (through,)), *_ = asked.calls
-    assert given.points[through].tolist() == row.trail.points[at].tolist()
+    assert given.points[through].tolist() == row.data.points[at].tolist()
 
 
 def test_a_row_that_would_break_the_promise_is_not_taken():
