@@ -12,9 +12,9 @@ from checks.distance import TwoSided, distance_to_curve, distance_to_polyline, t
 from checks.report import Report, bits, report
 from checks.shape import (
     data_turn,
-    gap_ratio,
     hooks,
     inflections,
+    interval_ratio,
     smallest_radius,
     speed_ratio,
     turns,
@@ -28,10 +28,10 @@ __all__ = [
     "data_turn",
     "distance_to_curve",
     "distance_to_polyline",
-    "gap_ratio",
     "gaps",
     "hooks",
     "inflections",
+    "interval_ratio",
     "polyline_of",
     "report",
     "samples",

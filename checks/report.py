@@ -10,7 +10,7 @@ import numpy as np
 from checks.crossings import self_crossings
 from checks.curves import Array, gaps, polyline_of, splines
 from checks.distance import two_sided
-from checks.shape import gap_ratio, hooks, inflections, smallest_radius, speed_ratio
+from checks.shape import hooks, inflections, interval_ratio, smallest_radius, speed_ratio
 
 # Samples of a curve within one tolerance.
 FINE = 10
@@ -28,7 +28,7 @@ class Report(NamedTuple):
     speed_ratio: float
     smallest_radius: float
     inflections: int
-    gap_ratio: float
+    interval_ratio: float
 
 
 def report(curve: Any, points: Array, *, closed: bool, tolerance: float) -> Report:
@@ -46,7 +46,7 @@ def report(curve: Any, points: Array, *, closed: bool, tolerance: float) -> Repo
         speed_ratio=speed_ratio(parts),
         smallest_radius=smallest_radius(parts),
         inflections=inflections(parts),
-        gap_ratio=gap_ratio(parts),
+        interval_ratio=interval_ratio(parts),
     )
 
 

@@ -172,7 +172,7 @@ def _tangent(spline: BSpline, *, end: bool) -> Array:
     return np.zeros(2)
 
 
-def gap_ratio(curve: Any) -> float:
+def interval_ratio(curve: Any) -> float:
     """The longest knot interval over the shortest, of the part where that is largest."""
-    gaps = [np.diff(breakpoints(spline)) for spline in splines(curve)]
-    return float(max(gap.max() / gap.min() for gap in gaps))
+    intervals = [np.diff(breakpoints(spline)) for spline in splines(curve)]
+    return float(max(interval.max() / interval.min() for interval in intervals))

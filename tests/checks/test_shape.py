@@ -10,7 +10,7 @@ from checks.shape import NEAR_CUSP
 from scipy.interpolate import BSpline, make_interp_spline
 from tests.checks.test_distance import circle, ring
 
-from checks import gap_ratio, hooks, inflections, smallest_radius, speed_ratio, turns
+from checks import hooks, inflections, interval_ratio, smallest_radius, speed_ratio, turns
 
 
 def bezier(*points):
@@ -93,7 +93,7 @@ def test_a_circle():
         assert smallest_radius(curve) == pytest.approx(radius, rel=0.002)
         assert speed_ratio(curve) == pytest.approx(1.0, rel=0.002)
         assert inflections(curve) == 0
-        assert gap_ratio(curve) == pytest.approx(1.0)
+        assert interval_ratio(curve) == pytest.approx(1.0)
 
 
 def test_a_cusp_stands_still():
@@ -150,5 +150,5 @@ def test_turns_by_hand():
 
 def test_knots_by_hand():
     curve = BSpline([0, 0, 0, 1, 1, 4, 6, 6, 6], np.zeros((6, 2)), 2)
-    assert gap_ratio(curve) == 3.0
-    assert gap_ratio([curve, bezier((0, 0), (1, 1))]) == 3.0
+    assert interval_ratio(curve) == 3.0
+    assert interval_ratio([curve, bezier((0, 0), (1, 1))]) == 3.0

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.support.shapes import moved
 
-from checks import turns
+from checks import report, turns
 from shapespline import Contour, fit_curve
 
 # A turn below the first is a smooth joint; corners turn more than the second.
@@ -54,3 +54,16 @@ def test_a_polyline_drawn_with_lines_is_lines():
     corners = Contour([(0, 0), (9, 1), (8, 7), (4, 3), (1, 8)], closed=True)
     fit = fit_curve(corners.resampled(300), tolerance=0.02)
     assert all(piece.kind == "line" for piece in fit.pieces)
+
+
+@pytest.mark.slow
+def test_curves_have_no_hooks_and_cross_no_more_than_their_data(all_outlines):
+    for name, contour in all_outlines[::3]:
+        if "_n" in name:
+            continue  # noise has hooks of its own
+        tolerance = 0.005 * contour.box_diagonal
+        fit = fit_curve(contour, tolerance=tolerance)
+        found = report(fit.pieces, contour.points, closed=contour.closed, tolerance=tolerance)
+        assert found.hooks == 0, name
+        assert found.crossings <= found.data_crossings, name
+        assert found.gap <= 1e-12 * contour.box_diagonal, name

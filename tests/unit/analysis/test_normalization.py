@@ -4,8 +4,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 from tests.support.scattered import noisy_walk
-from tests.support.shapes import flower, on_circle, rectangle
+from tests.support.shapes import flower, moved, on_circle, rectangle
 
 from checks import distance_to_polyline
 from shapespline import Contour, _kernels
@@ -17,6 +18,7 @@ from shapespline.analysis.normalization import (
     _first_in_head,
     canonical_reading,
 )
+from shapespline.values import BSplineCurve, Piece
 
 NONE_MARKED = np.empty(0, dtype=np.int64)
 
@@ -97,3 +99,52 @@ def test_where_a_circle_begins_is_found_at_once():
     start, step = canonical_reading(points, closed=True)
     turned = np.roll(points, 123_456, axis=0)
     assert canonical_reading(turned, closed=True) == ((start + 123_456) % len(points), step)
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1.0, 3e7])
+@pytest.mark.parametrize("shift", [(0.0, 0.0), (12.0, -7.0)])
+def test_the_middle_is_the_origin_and_the_size_a_power_of_two_away(scale, shift):
+    contour = Contour(moved(flower().points, 0.3, scale, np.multiply(scale, shift)), closed=True)
+    normalized = NormalizedContour.of(contour)
+    assert 64 <= normalized.contour.box_diagonal < 128
+    assert np.frexp(normalized.scale)[0] == 0.5
+    middle = normalized.contour.points.min(axis=0) + normalized.contour.points.max(axis=0)
+    assert np.abs(middle).max() <= 4 * np.finfo(float).eps * 128
+    # Nothing but the subtraction of the middle is rounded.
+    back = normalized.contour.points / normalized.scale + normalized.middle
+    rounding = 4 * np.finfo(float).eps * np.abs(contour.points).max()
+    assert np.abs(back - contour.points[normalized.order]).max() <= rounding
+    assert_array_equal(normalized.order[normalized.place], np.arange(len(contour)))
+
+
+def test_neighbours_that_would_fall_together_stay_apart():
+    points = np.array([(0.0, 0.0), (0.0, 1e-10), (1.0, 1e7), (-1.0, 1e7)])
+    normalized = NormalizedContour.of(Contour(points, closed=True))
+    steps = np.diff(normalized.contour.polyline, axis=0)
+    assert (steps != 0).any(axis=1).all()
+    assert_array_equal(normalized.contour.points / normalized.scale, points[normalized.order])
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_the_reading_does_not_depend_on_where_and_which_way_the_data_run(closed):
+    points = flower(90).points * (1.0, 0.6) + np.sin(flower(90).points[::-1]) * 0.1
+    expected = NormalizedContour.of(Contour(points, closed)).contour.points
+    ways = [points[::-1]]
+    if closed:
+        ways += [np.roll(points, 31, axis=0), np.roll(points[::-1], 7, axis=0)]
+    for way in ways:
+        found = NormalizedContour.of(Contour(way, closed))
+        assert_array_equal(found.contour.points, expected)
+
+
+def test_what_is_found_is_restored_where_the_data_are_and_the_way_they_run():
+    points = moved(flower(90).points * (1.0, 0.6), 0.4, 3.0, (50.0, -20.0))
+    for given in (points, points[::-1]):
+        normalized = NormalizedContour.of(Contour(given, closed=False))
+        ends = normalized.contour.points[[0, -1]]
+        line = Piece("line", 1, np.array([0.0, 0, 1, 1]), ends)
+        (piece,) = normalized.restored((line,))
+        assert piece.control_points == pytest.approx(given[[0, -1]], rel=1e-14)
+        curve = BSplineCurve([0, 0, 1, 1], ends, 1)
+        again = normalized.restored_curve(curve)([0.0, 1.0])
+        assert again == pytest.approx(given[[0, -1]], rel=1e-14)

@@ -6,7 +6,15 @@ from numpy.testing import assert_array_equal
 from tests.support.scattered import rose
 
 from checks import distance_to_polyline
-from shapespline.analysis.run_averages import averaged, averages, strayed
+from shapespline.analysis.run_averages import (
+    WIDTHS,
+    at_end,
+    averaged,
+    averages,
+    best_width,
+    joint,
+    strayed,
+)
 
 
 @pytest.mark.parametrize("closed", [True, False])
@@ -34,3 +42,32 @@ def test_what_strays_is_seen():
     nodes = np.array([(0.0, 0.0), (4.0, 0.0), (8.0, 0.0)])
     run = np.array([0, 1, 1, 2])
     assert strayed(nodes, np.array([(0.0, 0), (3, 1), (5, -1), (8, 0)]), run) == 1.0
+
+
+def test_runs_by_hand():
+    points = np.column_stack([np.arange(12.0), np.zeros(12)])
+    found = averages(points, 3)
+    assert found.nodes[:, 0].tolist() == [1, 4, 7, 10]
+    assert found.indices.tolist() == [1, 4, 7, 10]
+    assert found.error_bound == 0
+    assert [len(run) for run in (*found.head, *found.tail)] == [3, 3, 3, 3]
+    # At least four runs; points that are to be alone are runs of their own.
+    assert averages(points, 100).nodes[:, 0].tolist() == [1, 4, 7, 10]
+    alone = averages(points, 3, np.array([4]))
+    assert alone.nodes[:, 0].tolist() == [1, 3, 4, 5, 7, 10]
+
+
+def test_the_widest_run_that_is_about_as_near_is_taken():
+    assert best_width([1.0, 0.5, 0.4, 0.43, 0.45]) == WIDTHS[3]
+    assert best_width([0.1, 0.5, 0.4, 0.43, 0.45]) == WIDTHS[0]
+    assert best_width([0.3] * 5) == WIDTHS[-1]
+
+
+def test_where_chunks_meet_points_count_too():
+    straight = averages(np.column_stack([np.arange(40.0), np.zeros(40)]), 10)
+    on = np.column_stack([np.arange(40.0, 80.0), np.zeros(40)])
+    assert joint(straight, averages(on, 10)) == 0
+    on[3, 1] = 5.0  # its average is off by a tenth of that, the point itself by nearly all
+    assert 4.5 <= joint(straight, averages(on, 10)) <= 5.0
+    assert at_end(np.array([0.0, 0.0]), straight.head) == 0
+    assert at_end(np.array([0.0, 3.0]), straight.head) > 0.5

@@ -10,7 +10,7 @@ from shapespline.errors import InvalidInputError
 from shapespline.streaming import Passes, PointStream, ProxyPolyline
 
 # So many points are looked at from outside.
-SOME = 4000
+SOME = 2000
 
 
 def proxy_of(points, closed, tolerance, longest=np.inf):
@@ -32,7 +32,7 @@ def assert_stands_for(proxy, points, closed):
     assert (np.diff(proxy.indices) > 0).all()
 
 
-@pytest.mark.parametrize("closed", [True, False])
+@pytest.mark.parametrize("closed", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_clean_points_are_thinned(closed):
     points = rose(N) if closed else rose(N)[: 3 * N // 4]
     proxy = proxy_of(points, closed, 0.1)

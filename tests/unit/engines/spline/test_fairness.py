@@ -1,0 +1,56 @@
+"""How fair a spline is, against the outside checker and by hand."""
+
+import numpy as np
+import pytest
+from tests.support.make_fit import blob, wave
+from tests.support.shapes import flower
+
+from checks import interval_ratio, polyline_of, self_crossings, speed_ratio
+from shapespline.engines.spline import Fairness, fairness_of
+from shapespline.engines.spline.fairness import INTERVAL_RATIO, SPEED_RATIO
+from shapespline.values import BSplineCurve, Contour, clamped_knots
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("make", [blob, wave])
+def test_as_an_outside_checker_finds(make, seed):
+    curve = make(11, seed=seed)
+    found = fairness_of(curve, flower())
+    assert found.interval_ratio == pytest.approx(interval_ratio(curve), rel=1e-12)
+    # The samples of the two lie elsewhere, 64 a span.
+    assert found.speed_ratio == pytest.approx(speed_ratio(curve), rel=0.05)
+    assert found.n_crossings == self_crossings(polyline_of(curve, 0.01))
+    assert found.n_data_crossings == 0
+
+
+def test_crossings_are_those_of_the_data_or_too_many():
+    t = np.linspace(0, 2 * np.pi, 200, endpoint=False)
+    eight = Contour(np.column_stack([np.sin(t), np.sin(2 * t)]), closed=True)
+    loop = [(0, 0), (6, 6), (6, -6), (0, 6), (-6, -6), (-6, 6), (0, 0)]
+    curve = BSplineCurve(clamped_knots(7, 3), loop, 3)
+    assert fairness_of(curve, eight).n_data_crossings == 1
+    n = fairness_of(curve, flower()).n_crossings
+    assert n == self_crossings(polyline_of(curve, 0.01)) > 0
+    assert not fairness_of(curve, flower()).kept
+
+
+def test_a_near_cusp_is_not_fair_and_a_corner_is_no_cusp():
+    way = [(0.0, 0.0), (3.0, 2.0), (0.0, 2.0), (3.0, 0.0)]
+    cusp = BSplineCurve(clamped_knots(4, 3), way, 3)
+    assert fairness_of(cusp, flower()).speed_ratio < SPEED_RATIO
+    corner = BSplineCurve(clamped_knots(3, 1, [0.5]), [(0, 0), (1, 0), (1, 1)], 1)
+    assert fairness_of(corner, flower()).speed_ratio == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("fairness", "kept"),
+    [
+        (Fairness(INTERVAL_RATIO, SPEED_RATIO, 1, 1), True),
+        (Fairness(1.01 * INTERVAL_RATIO, 1.0, 0, 0), False),
+        (Fairness(1.0, 0.99 * SPEED_RATIO, 0, 0), False),
+        (Fairness(1.0, 1.0, 2, 1), False),
+        (Fairness(1.0, 1.0, 0, 1), True),
+    ],
+)
+def test_the_rule(fairness, kept):
+    assert fairness.kept is kept
