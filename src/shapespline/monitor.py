@@ -17,11 +17,13 @@ if TYPE_CHECKING:
 
 
 class Iteration(NamedTuple):
-    """One record of a fit's history; evaluations and seconds count from the start.
+    """One record of a fit's history, the start's first; evaluations and seconds count from there.
 
-    ``paper_error`` is the paper's E_i, the root of the sum of squared residuals over n - 1. With a
-    tolerance a record stands for a stage of the search: ``cost`` is its number of points (0 before
-    there is a curve) and what does not apply is NaN.
+    ``paper_error`` is the paper's E_i, the root of the sum of squared residuals over n - 1.
+    ``step`` is the accepted step length (line search) or the damping (Levenberg-Marquardt), 0 where
+    nothing moved; ``gradient_norm`` is the norm that the solver works in. With a tolerance a record
+    stands for a stage of the search: ``cost`` is its number of points (0 before there is a curve).
+    What does not apply is NaN.
     """
 
     iteration: int

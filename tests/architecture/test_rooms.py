@@ -19,7 +19,7 @@ ENGINES = {"engines.pieces", "engines.spline", "engines.least_squares"}
 MAY_IMPORT = {
     "values": GROUND,
     "geometry": GROUND | {"values"},
-    "solvers": {"errors", "typing"},
+    "solvers": {"errors", "typing", "monitor"},
     "analysis": GROUND | {"values", "geometry"},
     "tracing": GROUND | {"values", "geometry", "analysis"},
     "streaming": GROUND | {"values", "geometry", "analysis"},

@@ -7,7 +7,7 @@ generalised BFGS family, `levenberg_marquardt` the damping policy, `line_search`
 
 from shapespline.solvers.alternation import Alternation, Metric
 from shapespline.solvers.fixed_parameters import FixedParameters
-from shapespline.solvers.iteration import IterationRecord, Limits, Result, Solver, Stop, minimize
+from shapespline.solvers.iteration import Limits, Result, Solver, Stop, minimize
 from shapespline.solvers.levenberg_marquardt import LevenbergMarquardt, Proposal
 from shapespline.solvers.quasi_newton import METHODS, QuasiNewton, make_solver
 
@@ -15,7 +15,6 @@ __all__ = [
     "METHODS",
     "Alternation",
     "FixedParameters",
-    "IterationRecord",
     "LevenbergMarquardt",
     "Limits",
     "Metric",

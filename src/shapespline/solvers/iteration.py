@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 import numpy as np
 
 from shapespline.errors import InvalidInputError
+from shapespline.monitor import Iteration
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -108,30 +109,13 @@ class Limits:
 
 
 @dataclass(frozen=True, slots=True)
-class IterationRecord:
-    """One line of the history; record 0 is the start.
-
-    ``evaluations`` and ``seconds`` count from the start of the run. ``step`` is the accepted
-    step length (line search) or the damping (Levenberg-Marquardt), 0 where nothing moved.
-    ``gradient_norm`` is the norm that the solver works in.
-    """
-
-    iteration: int
-    cost: float
-    gradient_norm: float
-    evaluations: int
-    step: float
-    seconds: float
-
-
-@dataclass(frozen=True, slots=True)
 class Result:
     """The best point found, its cost, why the run ended and how it went."""
 
     x: FloatArray
     cost: float
     stop: Stop
-    history: tuple[IterationRecord, ...]
+    history: tuple[Iteration, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -180,7 +164,7 @@ def minimize(
     x0: ArrayLike,
     *,
     limits: Limits | None = None,
-    callback: Callable[[IterationRecord], bool | None] | None = None,
+    callback: Callable[[Iteration], bool | None] | None = None,
 ) -> Result:
     """Minimise a problem's cost from a start.
 
@@ -228,15 +212,16 @@ def minimize(
             f"of {state.gradient_norm}; start elsewhere"
         )
         raise InvalidInputError(msg)
-    history: list[IterationRecord] = []
+    history: list[Iteration] = []
     while True:
-        record = IterationRecord(
-            len(history),
-            state.cost,
-            state.gradient_norm,
-            state.evaluations,
-            state.step,
-            time.perf_counter() - began,
+        record = Iteration(
+            iteration=len(history),
+            cost=state.cost,
+            paper_error=math.nan,
+            gradient_norm=state.gradient_norm,
+            evaluations=state.evaluations,
+            step=state.step,
+            seconds=time.perf_counter() - began,
         )
         history.append(record)
         stop = _stop(limits, state, history, solver.patience)
@@ -259,9 +244,7 @@ def _checked_start(x0: ArrayLike) -> FloatArray:
     return x
 
 
-def _stop(
-    limits: Limits, state: State, history: list[IterationRecord], patience: int
-) -> Stop | None:
+def _stop(limits: Limits, state: State, history: list[Iteration], patience: int) -> Stop | None:
     """Return the reason to stop now; what was achieved comes before what ran out."""
     if limits.target_cost is not None and state.cost <= limits.target_cost:
         return Stop.TARGET
@@ -280,7 +263,7 @@ def _stop(
     return None
 
 
-def _hardly_falls(history: list[IterationRecord], fraction: float, patience: int) -> bool:
+def _hardly_falls(history: list[Iteration], fraction: float, patience: int) -> bool:
     """Whether each of the last ``patience`` iterations lowered the cost by so little."""
     if len(history) <= patience:
         return False

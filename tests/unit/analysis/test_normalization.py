@@ -114,7 +114,7 @@ def test_the_middle_is_the_origin_and_the_size_a_power_of_two_away(scale, shift)
     back = normalized.contour.points / normalized.scale + normalized.middle
     rounding = 4 * np.finfo(float).eps * np.abs(contour.points).max()
     assert np.abs(back - contour.points[normalized.order]).max() <= rounding
-    assert_array_equal(normalized.order[normalized.place], np.arange(len(contour)))
+    assert_array_equal(normalized.order[normalized.new_index], np.arange(len(contour)))
 
 
 def test_neighbours_that_would_fall_together_stay_apart():

@@ -5,7 +5,7 @@ honest history; units, restarts, skipped updates, bad input, memory, and the sam
 from __future__ import annotations
 
 import tracemalloc
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -288,6 +288,8 @@ def test_same_input_same_bits(name):
     def bits():
         problem, limits = Rosenbrock(), Limits(max_iterations=30)
         result = minimize(make_solver(name), problem, problem.start, limits=limits)
-        return result.x.tobytes(), [astuple(r)[:-1] for r in result.history]
+        return result.x.tobytes(), [
+            r._replace(paper_error=0.0, seconds=0.0) for r in result.history
+        ]
 
     assert bits() == bits()

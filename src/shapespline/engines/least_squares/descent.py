@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.monitor import Iteration
 from shapespline.solvers import (
-    IterationRecord,
     LevenbergMarquardt,
     Limits,
     Result,
@@ -42,7 +42,7 @@ def descend(
     x: FloatArray,
     *,
     limits: Limits,
-    callback: Callable[[IterationRecord], bool | None] | None = None,
+    callback: Callable[[Iteration], bool | None] | None = None,
     ask: Callable[[int], bool] = go_on,
 ) -> Result:
     """What `minimize` finds from a start.
@@ -95,5 +95,8 @@ def _descended(
     )
     if stop >= len(_STOPS):
         return None
-    records = tuple(IterationRecord(k, *record) for k, record in enumerate(history))
+    records = tuple(
+        Iteration(k, cost, np.nan, norm, evaluations, step, seconds)
+        for k, (cost, norm, evaluations, step, seconds) in enumerate(history)
+    )
     return Result(moved, records[-1].cost, _STOPS[stop], records)

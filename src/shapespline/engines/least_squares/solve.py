@@ -11,12 +11,10 @@ from shapespline.engines.least_squares.descent import descend, go_on
 from shapespline.engines.least_squares.problem import CurveProblem
 from shapespline.errors import InvalidInputError
 from shapespline.geometry import nondecreasing, two_sided_distance
-from shapespline.monitor import Iteration
 from shapespline.solvers import METHODS as QUASI_NEWTON
 from shapespline.solvers import (
     Alternation,
     FixedParameters,
-    IterationRecord,
     LevenbergMarquardt,
     Limits,
     QuasiNewton,
@@ -30,7 +28,7 @@ from shapespline.values import BSplineCurve, Contour
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from shapespline.monitor import Callback
+    from shapespline.monitor import Callback, Iteration
     from shapespline.typing import ArrayLike, FloatArray
 
 # Methods for comparison, beside the generalised BFGS family: foot points in turn with control
@@ -107,7 +105,7 @@ def minimized(
         problem,
         problem.pack(first, parameters_in_order(start, contour)),
         limits=limits,
-        callback=None if callback is None else lambda record: callback(as_iteration(record, n)),
+        callback=None if callback is None else lambda record: callback(with_paper_error(record, n)),
         ask=ask,
     )
     fitted = problem.curve(result.x)
@@ -115,7 +113,7 @@ def minimized(
     if ends == "interpolated":  # to the bit, in spite of the way to the middle and back
         control_points[[0, -1]] = contour.points[[0, -1]]
     curve = type(fitted)(fitted.knots, control_points, fitted.degree, fitted.periodic)
-    return Minimized(curve, result, tuple(as_iteration(record, n) for record in result.history))
+    return Minimized(curve, result, tuple(with_paper_error(record, n) for record in result.history))
 
 
 def named_solver(method: str | Solver[Any, Any]) -> tuple[Solver[Any, Any], str]:
@@ -182,8 +180,6 @@ def _stopping_at(limits: Limits, tolerance: float, problem: CurveProblem, closed
     return replace(limits, reached=reached)
 
 
-def as_iteration(record: IterationRecord, n: int) -> Iteration:
-    """What a caller hears of an iteration over n points."""
-    error = float(np.sqrt(2.0 * record.cost / max(n - 1, 1)))
-    rest = record.gradient_norm, record.evaluations, record.step, record.seconds
-    return Iteration(record.iteration, record.cost, error, *rest)
+def with_paper_error(record: Iteration, n: int) -> Iteration:
+    """A record of a least-squares run over n points with the paper's error."""
+    return record._replace(paper_error=float(np.sqrt(2.0 * record.cost / max(n - 1, 1))))

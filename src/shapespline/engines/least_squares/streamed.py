@@ -16,7 +16,7 @@ import numpy as np
 
 from shapespline import _kernels
 from shapespline.engines.least_squares.problem import CurveProblem
-from shapespline.engines.least_squares.solve import as_iteration, minimized, parameters_in_order
+from shapespline.engines.least_squares.solve import minimized, parameters_in_order, with_paper_error
 from shapespline.engines.least_squares.starts.equidistribution import (
     STRAY_WEIGHT,
     Balanced,
@@ -218,11 +218,11 @@ def least_squares(
         problem,
         (start.spline.control_points - middle).ravel(),
         limits=LIMITS,
-        callback=lambda record: monitor.iterated(as_iteration(record, n)),
+        callback=lambda record: monitor.iterated(with_paper_error(record, n)),
     )
     passes.reach(1 + MOST_PASSES)
     moved = problem.curve(run.x).moved
     points = moved.control_points + middle
     spline = BSplineCurve(moved.knots, points, degree, moved.periodic)
-    history = tuple(as_iteration(record, n) for record in run.history)
+    history = tuple(with_paper_error(record, n) for record in run.history)
     return SquaresFit(spline, sample, run, history)

@@ -29,7 +29,7 @@ def test_corners_that_are_found_are_the_vertices():
     assert sorted(points_of(problem, problem.corners)) == [0, 60, 100, 160]
     # The sides hardly turn, the vertices do.
     assert not problem.low_turn[problem.corners].any()
-    assert problem.low_turn[problem.normalized.place[[30, 80, 130, 180]]].all()
+    assert problem.low_turn[problem.normalized.new_index[[30, 80, 130, 180]]].all()
     none = PiecesProblem.of(contour, 0.1, None)
     assert len(none.corners) == 0
     assert none.low_turn.all()
