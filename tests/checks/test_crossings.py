@@ -36,9 +36,8 @@ def test_a_figure_eight_crosses_once():
         t = np.linspace(0, 2 * np.pi, n + 1)
         eight = np.column_stack([np.sin(t), np.sin(2 * t)])
         eight[-1] = eight[0]
-        for start in range(
-            0, n, 7 if n < 1000 else 77
-        ):  # also with a point in the crossing, also beginning there
+        # Also with a point in the crossing, and beginning there.
+        for start in range(0, n, 7 if n < 1000 else 77):
             way = np.roll(eight[:-1], -start, axis=0)
             assert self_crossings(np.concatenate([way, way[:1]])) == 1
 
