@@ -6,7 +6,9 @@
 
 using namespace nb::literals;
 
-void bind_curve(nb::module_ &m) {
+namespace {
+
+void bind_splines(nb::module_ &m) {
     m.def(
         "basis_functions",
         [](In1 knots, int degree, bool periodic, In1 parameters, Out2 values, OutIndices first) {
@@ -26,7 +28,9 @@ void bind_curve(nb::module_ &m) {
         },
         "knots"_a.noconvert(), "degree"_a, "periodic"_a, "coefficients"_a.noconvert(),
         "parameters"_a.noconvert(), "out"_a.noconvert());
+}
 
+void bind_beziers(nb::module_ &m) {
     m.def(
         "bezier_pieces",
         [](In1 knots, int degree, In2 coefficients, OutPoints points, Out1 breakpoints) {
@@ -69,4 +73,11 @@ void bind_curve(nb::module_ &m) {
         },
         "beziers"_a.noconvert(), "degree"_a, "breakpoints"_a.noconvert(), "counts"_a.noconvert(),
         "points"_a.noconvert(), "parameters"_a.noconvert());
+}
+
+}  // namespace
+
+void bind_curve(nb::module_ &m) {
+    bind_splines(m);
+    bind_beziers(m);
 }

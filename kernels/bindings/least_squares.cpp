@@ -57,11 +57,8 @@ void bind_limits(nb::module_ &m) {
              "gradient_tolerance"_a, "target_cost"_a, "start_damping"_a, "patience"_a);
 }
 
-}  // namespace
-
-void bind_least_squares(nb::module_ &m) {
-    bind_limits(m);
-    nb::class_<LeastSquares>(m, "LeastSquares")
+nb::class_<LeastSquares> bind_problem(nb::module_ &m) {
+    return nb::class_<LeastSquares>(m, "LeastSquares")
         .def(
             "__init__",
             [](LeastSquares *self, In1 knots, int degree, bool periodic, In2 points,
@@ -103,7 +100,11 @@ void bind_least_squares(nb::module_ &m) {
                                           numbers(control_diagonal), parameter_diagonal.data());
             },
             "control_points"_a.noconvert(), "parameters"_a.noconvert(),
-            "control_diagonal"_a.noconvert(), "parameter_diagonal"_a.noconvert())
+            "control_diagonal"_a.noconvert(), "parameter_diagonal"_a.noconvert());
+}
+
+void bind_steps(nb::class_<LeastSquares> problem) {
+    problem
         .def(
             "damped_step",
             [](const LeastSquares &self, In2 control_points, In1 parameters, double damping,
@@ -130,6 +131,13 @@ void bind_least_squares(nb::module_ &m) {
             },
             "control_points"_a.noconvert(), "parameters"_a.noconvert(),
             "equations"_a.noconvert());
+}
+
+}  // namespace
+
+void bind_least_squares(nb::module_ &m) {
+    bind_limits(m);
+    bind_steps(bind_problem(m));
 
     m.def("eliminated_size", &ls::eliminated_size, "n_points"_a, "degree"_a, "periodic"_a);
 
