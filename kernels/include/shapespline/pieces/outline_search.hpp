@@ -162,9 +162,10 @@ struct OutlineSearch {
             for (std::size_t k = 1; k < degenerate.points.size(); ++k)
                 length += norm(degenerate.points[k] - degenerate.points[k - 1]);
             if (length > kDegenerate * settings.tolerance) continue;
-            Section next = ring.window(i, i + 1)[1];
+            const std::vector<Section> both = ring.window(i, i + 1);  // on one lap
+            Section next = both[1];
             next.points.front() = degenerate.points.front();
-            next.first = degenerate.first;
+            next.first = both[0].first;
             next.parameters.insert(next.parameters.begin(), degenerate.count(), 0.0);
             next.join_like(degenerate);
             next.tangent = false;
