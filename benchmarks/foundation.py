@@ -18,7 +18,6 @@ import numpy as np
 from scipy.interpolate import BSpline, splprep
 
 import shapespline as ss
-from benchmarks.paper_runs import NEAR_ITS_END, first_within
 from checks import distance_to_curve, two_sided
 from shapespline.engines.least_squares.problem import CurveProblem
 from shapespline.paper.run import run_paper, timed_start
@@ -26,6 +25,8 @@ from shapespline.solvers.iteration import Limits
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from shapespline.monitor import Iteration
 
 DATA = Path(__file__).parent.parent / "examples" / "data"
 EQUAL_COUNT = (("hand620_closed", 36), ("leaf840_closed", 70), ("loop500_open", 24))
@@ -147,6 +148,16 @@ def resident(name: str) -> int:
     raise SystemExit("peak memory is read from /proc/self/status: run this on Linux")
 
 
+# The literal run is counted until it is this near its end, not until it stops.
+NEAR_ITS_END = 1.01
+
+
+def first_within(fit: ss.Fit, error: float) -> Iteration:
+    """The first record of a fit with no larger error (but for rounding), else its last."""
+    met = (record for record in fit.history if record.paper_error <= error * (1 + 1e-12))
+    return next(met, fit.history[-1])
+
+
 def literal_against_sensible() -> None:
     """Evaluations that direct D-BFGS from the sensible start needs to the literal run's error."""
     print("## The literal reading and the sensible one: evaluations to the same error\n")
@@ -159,7 +170,7 @@ def literal_against_sensible() -> None:
     print(" evaluations | part |\n|---|---|---|---|---|---|---|---|")
     for name, length in PAPER:
         contour = outline(name, "paper")
-        literal = run_paper(contour, length, literal=True)
+        literal = run_paper(contour, length, reading=ss.LITERAL)
         near = first_within(literal.fit, NEAR_ITS_END * literal.final_error)
         start = timed_start(contour, length).start
         target = Limits(

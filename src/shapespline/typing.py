@@ -18,7 +18,18 @@ Ends: TypeAlias = Literal["free", "fixed"]
 # Which corners a curve has, where they are not named by their indices.
 CornerChoice: TypeAlias = Literal["auto", "free"]
 # Where the knots of a curve of a given size begin.
-Knots: TypeAlias = Literal["balanced", "dominant", "uniform"]
+Knots: TypeAlias = Literal[
+    "balanced",
+    "cpda-filled",
+    "cpda-halved",
+    "cpda-maxima",
+    "curvature",
+    "arc-length",
+    "every-nth",
+    "park-lee",
+    "dominant",
+    "uniform",
+]
 
 __all__ = [
     "ArrayLike",

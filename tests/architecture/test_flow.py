@@ -24,7 +24,7 @@ def test_one_fit_passes_few_modules(way):
     # docs/architecture.md states the figure; a module more is a decision.
     assert len(way.modules) <= 42
     rooms = {room_of(module) for module in way.modules}
-    assert rooms == {"ground", "values", "geometry", "solvers", "analysis", "engines", "fitting"}
+    assert rooms == {"ground", "values", "geometry", "analysis", "engines", "fitting"}
 
 
 def test_points_become_a_contour_a_request_and_a_fit_once(monkeypatch):

@@ -36,7 +36,12 @@ MAY_IMPORT = {
     | {"", "values", "geometry", "analysis", "tracing", "formats", "plotting", "fitting", "paper"},
 }
 # Single arrows beside the table: file -> room.
-ALSO = {("formats/image.py", "tracing"), ("__main__.py", "cli"), ("__main__.py", "_version")}
+ALSO = {
+    ("formats/image.py", "tracing"),
+    ("values/fit.py", "geometry"),  # what people expect on a value, imported inside the body
+    ("__main__.py", "cli"),
+    ("__main__.py", "_version"),
+}
 SOURCES = sorted(PACKAGE.rglob("*.py"))
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.support import reference
 
 import shapespline as ss
 from shapespline.engines.least_squares.problem import CurveProblem
+from shapespline.errors import DegenerateContourError
+from shapespline.paper import SENSIBLE, initial_curve
 from shapespline.values.contour import Contour
 from shapespline.values.curve import BSplineCurve
 from shapespline.values.knots import clamped_knots, periodic_knots
@@ -87,6 +91,17 @@ class Start:
 
     def __init__(self, spline, parameters):
         self.spline, self.parameters = spline, np.asarray(parameters, dtype=float)
+
+
+def plain_start(contour, length=None, *, reading=SENSIBLE, **arguments):
+    """The maxima of H as control points, and nothing said on how to go on from there."""
+    reading = replace(reading, start="cpda-maxima", closing_point=False)
+    try:
+        start = initial_curve(contour, length, reading=reading, **arguments)
+    except DegenerateContourError:  # fewer than a cubic needs
+        reading = replace(reading, start="cpda-halved")
+        start = initial_curve(contour, length, reading=reading, n_control_points=4, **arguments)
+    return Start(start.spline, start.parameters)
 
 
 class Case:

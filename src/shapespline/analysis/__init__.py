@@ -1,7 +1,7 @@
 """Analysis: what points tell before any fit."""
 
 from shapespline.analysis.corners import LEAST_TURN, LOW_TURN, find_corners
-from shapespline.analysis.cpda import Cpda, check_window, chord_to_point
+from shapespline.analysis.cpda import Cpda, bending, check_window, chord_to_point, local_maxima
 from shapespline.analysis.mirror import Mirror, find_mirror
 from shapespline.analysis.noise import noise_level
 from shapespline.analysis.normalization import (
@@ -48,6 +48,7 @@ __all__ = [
     "at_end",
     "averaged",
     "averages",
+    "bending",
     "best_width",
     "canonical_reading",
     "check_window",
@@ -58,6 +59,7 @@ __all__ = [
     "find_outliers",
     "has_straight_runs",
     "joint",
+    "local_maxima",
     "looks_shuffled",
     "noise_level",
     "order_points",

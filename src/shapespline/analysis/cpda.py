@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 # Standard deviations of the noise of H that a maximum must rise above its surroundings.
 NOISE_SIGMAS = 4.0
+# Chords, in parts of L, whose H together measure how much an outline bends: the short ones see a
+# corner, the long ones the bow between two corners (PAP-07).
+BENDING_SCALES = (1, 2, 4)
 
 
 class Cpda(NamedTuple):
@@ -62,7 +65,12 @@ class Cpda(NamedTuple):
 
     def curvature(self, spacing: float) -> FloatArray:
         """Signed curvature estimate from H, 1 / data units, for points ``spacing`` apart."""
-        return self.signed * 12.0 / (spacing**2 * self.length * (self.length**2 - 1))
+        return _curvature(self.signed, self.length, spacing)
+
+
+def _curvature(accumulated: FloatArray, length: int, spacing: float) -> FloatArray:
+    """Curvature that H stands for: H = k d^2 L (L^2 - 1) / 12 on points d apart."""
+    return accumulated * 12.0 / (spacing**2 * length * (length**2 - 1))
 
 
 def accumulate(contour: Contour, length: int) -> tuple[FloatArray, FloatArray]:
@@ -103,6 +111,40 @@ def accumulate(contour: Contour, length: int) -> tuple[FloatArray, FloatArray]:
     signed, unsigned = np.empty(len(contour)), np.empty(len(contour))
     _kernels.accumulate_chord_distances(contour.points, steps, contour.closed, signed, unsigned)
     return signed, unsigned
+
+
+def bending(contour: Contour, length: int) -> FloatArray:
+    """How much an outline bends at each point: its curvature as H measures it, shape (n,).
+
+    The largest of the unsigned curvatures that H gives with chords of L, 2 L and 4 L points;
+    chords longer than a quarter of the data are left out.
+
+    Parameters
+    ----------
+    contour : Contour
+        Points about equally spaced.
+    length : int
+        Chord length L in points.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> t = np.linspace(0, 2 * np.pi, 200, endpoint=False)
+    >>> circle = Contour(5 * np.column_stack([np.cos(t), np.sin(t)]), closed=True)
+    >>> float(bending(circle, 8).min().round(2)), float(bending(circle, 8).max().round(2))
+    (0.2, 0.2)
+    """
+    n = len(contour)
+    step = contour.length / (n if contour.closed else n - 1)
+    found = np.zeros(n)
+    for scale in BENDING_SCALES:
+        chord = scale * length
+        if scale > 1 and chord > n // 4:
+            break
+        window = 2 * max(1, chord // 4) + 1
+        signed = moving_average(accumulate(contour, chord)[0], window, closed=contour.closed)
+        np.maximum(found, _curvature(np.abs(signed), chord, step), out=found)
+    return found
 
 
 def moving_average(values: FloatArray, window: int, *, closed: bool) -> FloatArray:

@@ -166,7 +166,7 @@ def _given(options: Reading | Writing) -> dict[str, Any]:
     }
 
 
-def gathers(**groups: type[Reading | Writing]) -> Callable[[Command], Command]:
+def gathers(**groups: type[Any]) -> Callable[[Command], Command]:
     """Give a command the options of groups, each gathered in the argument that it is named for.
 
     Typer builds options from a signature; the command's gets the fields of the groups in place of
@@ -198,7 +198,7 @@ def gathers(**groups: type[Reading | Writing]) -> Callable[[Command], Command]:
     return decorate
 
 
-def _parameters(group: type[Reading | Writing]) -> list[inspect.Parameter]:
+def _parameters(group: type[Any]) -> list[inspect.Parameter]:
     hints = get_type_hints(group, include_extras=True)
     return [
         inspect.Parameter(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -10,28 +11,66 @@ import typer
 from shapespline.cli import options
 
 
-@options.gathers(reading=options.Reading)
-def paper(
-    source: options.Input,
-    output: Annotated[
-        Path,
-        typer.Option("--output", "-o", help="Folder for the figures and the table."),
-    ],
+@dataclass(frozen=True)
+class Method:
+    """How to read the paper; every field is an option of the command line."""
+
     length: Annotated[
-        int, typer.Option("--length", "-L", help="Chord length L of the CPDA, in points.")
-    ] = 3,
+        int | None,
+        typer.Option("--length", "-L", help="Chord length L of the CPDA, in points (default: 8)."),
+    ] = None
+    arc_length: Annotated[
+        float | None, typer.Option(help="The same as a length in data units.")
+    ] = None
     literal: Annotated[
         bool, typer.Option("--literal", help="Take the paper at its word everywhere.")
-    ] = False,
-    degree: options.Degree = 3,
-    *,
-    reading: options.Reading,
-) -> None:
-    """Run the published method on the longest outline of INPUT: figures and a table."""
-    from shapespline.paper import check_folder, run_paper, write_report
+    ] = False
+    reading: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FIELD=VALUE",
+            help="One field of the reading, such as window=7 or start=park-lee; as often as you"
+            " like.",
+        ),
+    ] = None
+    method: Annotated[
+        str | None, typer.Option(help="Optimiser, such as levenberg-marquardt or l-bfgs.")
+    ] = None
+    n_control_points: Annotated[
+        int | None, typer.Option("--control-points", "-n", help="Number of control points.")
+    ] = None
+    degree: options.Degree = 3
 
+
+@options.gathers(how=Method, source=options.Reading)
+def paper(
+    path: options.Input,
+    output: Annotated[
+        Path,
+        typer.Option("--output", "-o", help="Folder for the figures and the files."),
+    ],
+    *,
+    how: Method,
+    source: options.Reading,
+) -> None:
+    """Run the published method on INPUT: figures, tables, curves; a folder for each outline."""
+    from shapespline.paper import LITERAL, SENSIBLE, check_folder, run_paper, write_report
+
+    chosen = (LITERAL if how.literal else SENSIBLE).changed(how.reading or ())
     check_folder(output)
-    shape = reading.outlines(Path(source))
-    run = run_paper(shape.longest, length, literal=literal, degree=degree)
-    for path in write_report(run, output):
-        typer.echo(str(path))
+    contours = source.outlines(Path(path)).contours
+    for index, contour in enumerate(contours):
+        folder = output if len(contours) == 1 else output / f"outline-{index + 1}"
+        run = run_paper(
+            contour,
+            how.length,
+            arc_length=how.arc_length,
+            reading=chosen,
+            method=how.method,
+            degree=how.degree,
+            n_control_points=how.n_control_points,
+            snapshots=1,
+        )
+        output.mkdir(exist_ok=True)
+        for file in write_report(run, folder):
+            typer.echo(str(file))

@@ -84,9 +84,11 @@ def fit_curve(
         a tolerance a point of weight w > 1 is kept within tolerance / w, and a lower weight loosens
         nothing. Few points are held exactly by ``through``, and cheaper. Without a tolerance the
         result is one spline.
-    knots : {"balanced", "dominant", "uniform"}
-        With a number of control points: spread until every span errs as much, or for comparison
-        at dominant points or equally spaced.
+    knots : str
+        With a number of control points, what least squares starts from: ``"balanced"``, knots
+        spread until every span errs as much; or for comparison ``"cpda-filled"``,
+        ``"cpda-halved"``, ``"cpda-maxima"``, ``"curvature"``, ``"arc-length"``, ``"every-nth"``,
+        ``"park-lee"``, ``"dominant"``, ``"uniform"`` (docs/paper.md compares them).
     outliers : bool
         Whether to leave out points that jump off the path and back, up to three in a row (see
         `find_outliers`); ``fit.outliers`` lists them and every promise is about the rest, which

@@ -11,13 +11,11 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from shapespline.engines.least_squares import (
     FINAL_LIMITS,
+    STARTS,
     STRAY_WEIGHT,
-    balanced_start,
-    dominant_start,
     minimized,
     named_solver,
     summed_weights,
-    uniform_start,
 )
 from shapespline.engines.pieces import (
     TOLERANCE_FACTORS,
@@ -47,8 +45,6 @@ if TYPE_CHECKING:
 
 # The simpler structure has the smaller rank; see `choose`.
 ONE_SPLINE, MIRRORED, PIECES, LINES, EVERY_POINT = range(5)
-# What least squares of a given size starts from.
-STARTS = {"balanced": balanced_start, "dominant": dominant_start, "uniform": uniform_start}
 
 
 class Strategy(Protocol):

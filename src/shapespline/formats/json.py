@@ -18,6 +18,7 @@ Version 1 is one object::
         method       name of the solver
         sections     {kind, degree, knots, control_points} end to end; none for a single spline
         outliers     indices of the points left out
+        uncertainty  null, or covariance of the control points, chi_squared, degrees_of_freedom
 
 Numbers are written with the shortest digits that read back to the same double.
 """
@@ -31,6 +32,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from shapespline.errors import FormatError, InvalidInputError
+from shapespline.formats.json_uncertainty import checked_uncertainty, uncertainty_document
 from shapespline.formats.json_values import (
     checked_boolean,
     checked_indices,
@@ -45,7 +47,15 @@ from shapespline.formats.json_values import (
 )
 from shapespline.monitor import Iteration
 from shapespline.units import UNITS
-from shapespline.values import BSplineCurve, Contour, Drawing, Fit, Piece, Status, ViewBox
+from shapespline.values import (
+    BSplineCurve,
+    Contour,
+    Drawing,
+    Fit,
+    Piece,
+    Status,
+    ViewBox,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -58,7 +68,7 @@ FORMAT, VERSION = "shapespline", 1
 LINE_LENGTH = 100
 DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
-FIT_FIELDS += ("status", "history", "method", "sections", "outliers")
+FIT_FIELDS += ("status", "history", "method", "sections", "outliers", "uncertainty")
 DRAWING_FIELDS = ("format", "version", "unit", "frame", "parents", "fits")
 COUNTS = ("iteration", "evaluations")  # the columns of the history that hold integers
 KINDS = ("line", "bezier", "spline")
@@ -175,6 +185,7 @@ def _fit_document(fit: Fit) -> dict[str, Any]:
             for piece in fit.sections
         ],
         "outliers": np.asarray(fit.outliers).tolist(),
+        "uncertainty": uncertainty_document(fit.uncertainty),
     }
 
 
@@ -291,6 +302,7 @@ def _fit(value: object, where: str) -> Fit:
         history=_history(fields["history"], f"{where}.history"),
         method=checked_string(fields["method"], f"{where}.method"),
         outliers=np.array(outliers, dtype=np.int64),
+        uncertainty=checked_uncertainty(fields["uncertainty"], f"{where}.uncertainty"),
     )
 
 

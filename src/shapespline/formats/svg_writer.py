@@ -15,7 +15,7 @@ from shapespline.values import ViewBox
 
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray
-    from shapespline.values import Drawing
+    from shapespline.values import Drawing, Fit
 
 # Units that CSS knows; the page of a drawing in another one is sized in millimetres.
 PAGE_UNITS = (PIXEL, "mm", "cm", "in", "pt", "pc", "Q")
@@ -40,6 +40,7 @@ def encode(
     *,
     fill: bool = True,
     stroke_width: float | None = None,
+    band: float | None = None,
 ) -> bytes:
     """Text of an SVG file with one path for each outline and its holes.
 
@@ -57,6 +58,8 @@ def encode(
         Fill closed curves; otherwise they are stroked like open ones.
     stroke_width : float, optional
         Width of strokes, data units; 1/400 of the longer side of the view box if not given.
+    band : float, optional
+        Draw the pointwise band of this level, such as 0.95, around every fit to points with errors.
 
     Returns
     -------
@@ -115,8 +118,21 @@ def encode(
             _path_data(placement(pieces[index]), drawing.fits[index].closed) for index in group
         )
         lines.append(f'<path {style} d="{data}"/>')
+    if band is not None:
+        lines += [_band_path(fit, band, placement) for fit in drawing if fit.uncertainty]
     lines.append("</svg>\n")
     return "\n".join(lines).encode("utf-8")
+
+
+def _band_path(fit: Fit, level: float, placement: Placement) -> str:
+    """The strip between both edges of a band, red and half transparent."""
+    band = fit.band(level)
+    edges = [placement(band.left), placement(band.right)[::-1]]
+    if fit.closed:  # two rings
+        data = "".join(f"M{'L'.join(map(_pair, edge))}Z" for edge in edges)
+    else:
+        data = f"M{'L'.join(map(_pair, np.concatenate(edges)))}Z"
+    return f'<path fill="#c0392b" fill-opacity="0.4" fill-rule="evenodd" d="{data}"/>'
 
 
 # Placement

@@ -1,5 +1,6 @@
 """Geometry: pure functions on values."""
 
+from shapespline.geometry.bands import confidence_band, curve_motion, unit_normals
 from shapespline.geometry.biarcs import arc_polyline
 from shapespline.geometry.comparison import Comparison, compare
 from shapespline.geometry.distances import (
@@ -32,8 +33,10 @@ __all__ = [
     "backwards",
     "chords",
     "compare",
+    "confidence_band",
     "containing",
     "crossing_pairs",
+    "curve_motion",
     "exact_drawing",
     "greville_matched",
     "in_unit",
@@ -51,4 +54,5 @@ __all__ = [
     "signed_area",
     "turn_between",
     "two_sided_distance",
+    "unit_normals",
 ]

@@ -2,10 +2,9 @@
 
 Figure 1: the points, the accumulated chord-to-point distance, the frames at its maxima, the
 initial curve. Figure 2: initial curves for several lengths. Figures 3 to 6: final curves. The
-convergence of the error, which the paper only tabulates, is added. All are written as PNG of 1600
-pixels width and need the extra ``plot``. Every function raises MissingExtraError without
-matplotlib, UnknownFormatError if the path does not end in ``.png``, and FormatError if it cannot
-be written.
+convergence of the error, which the paper only tabulates, is added. All are written as SVG, or as
+PNG of 1600 pixels width, and need the extra ``plot``. Every function raises MissingExtraError
+without matplotlib, UnknownFormatError for another ending, and FormatError if it cannot be written.
 """
 
 from __future__ import annotations

@@ -13,27 +13,31 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis import Cpda, chord_to_point
-from shapespline.errors import DegenerateContourError, InvalidInputError
-from shapespline.geometry import greville_matched, parametrize
-from shapespline.paper.reading import SENSIBLE, Reading
-from shapespline.values import (
-    BSplineCurve,
-    Contour,
-    check_degree,
-    checked_contour,
-    clamped_knots,
-    greville_abscissae,
-    periodic_knots,
+from shapespline.engines.least_squares import (
+    STARTS,
+    STATIONS,
+    bend_gain,
+    chosen_stations,
+    even_samples,
+    inner_maxima,
+    own_number,
+    path_of,
+    placed_curve,
+    quasi_interpolating,
+    with_neighbours,
 )
+from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.paper.reading import SENSIBLE, Reading
+from shapespline.validation import whole_number
+from shapespline.values import BSplineCurve, Contour, check_degree, checked_contour
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
+    from shapespline.engines.least_squares import RunSettings
     from shapespline.typing import FloatArray, IntArray
 
 DEFAULT_LENGTH = 8
-# Steps between points may differ by this factor and still count as equal.
-EVEN_SPACING = 1.5
 # A chord given as an arc length is divided into this many steps, whatever the data's density: the
 # work is then that of the outline's length in chords, not of n times L (PAP-02).
 CHORD_STEPS = 16
@@ -59,13 +63,17 @@ class InitialCurve:
     spline : BSplineCurve
         The curve; ``curve`` is the same as a scipy BSpline.
     parameters : ndarray, shape (n,)
-        Location parameter of every point of the contour, increasing (unwrapped if periodic).
+        Location parameter of every point of the contour, increasing (unwrapped if periodic); one
+        more for the first point again where a closed contour gets a clamped curve.
+    reading : Reading
+        How it was made, and how `optimize` goes on from it.
     samples : Contour
         The points that CPDA was taken on: the data, or the data at equal arc length.
     cpda : Cpda
         The accumulation along ``samples``.
     stations : ndarray, shape (k,)
-        Indices in ``samples`` of the points that control points were made from.
+        Indices in ``samples`` of the points that control points were made from; the maxima of H
+        where the reading's start solves for them.
     frames : Frames
         Tangents and normals there.
     dominant : ndarray, shape (k,)
@@ -74,6 +82,7 @@ class InitialCurve:
 
     spline: BSplineCurve
     parameters: FloatArray = field(repr=False)
+    reading: Reading = field(repr=False)
     samples: Contour = field(repr=False)
     cpda: Cpda = field(repr=False)
     stations: IntArray = field(repr=False)
@@ -84,6 +93,11 @@ class InitialCurve:
     def curve(self) -> BSpline:
         """The curve as a ``scipy.interpolate.BSpline``."""
         return self.spline.to_scipy()
+
+    @property
+    def settings(self) -> RunSettings:
+        """What `optimize` takes from this start where its caller says nothing."""
+        return self.reading.settings
 
     @property
     def control_points(self) -> FloatArray:
@@ -103,7 +117,7 @@ def initial_curve(
     arc_length: float | None = None,
     degree: int = 3,
     reading: Reading = SENSIBLE,
-    n_control_points: int = 0,
+    n_control_points: int | None = None,
 ) -> InitialCurve:
     """Control points, knots and parameters of an initial B-spline curve, without any solve.
 
@@ -118,15 +132,17 @@ def initial_curve(
         1 to 9.
     reading : Reading
         ``SENSIBLE`` or ``LITERAL``, or one with fields of your own.
-    n_control_points : int
-        At least so many: where the maxima are too few, the widest gaps between them are halved.
+    n_control_points : int, optional
+        How many. When not given, the maxima alone if the reading takes only these; otherwise as
+        many as there are once the gaps between maxima that are wider than half the mean one are
+        halved, because a run without a maximum would get no control point of its own.
 
     Raises
     ------
     InvalidInputError
-        If L is below 2 or too long for the data.
+        If L is below 2 or too long for the data, or a field or count cannot be taken.
     DegenerateContourError
-        If there are too few points for the degree, or (literal reading) too few maxima.
+        If there are too few points for the degree, or (maxima alone) too few maxima.
 
     References
     ----------
@@ -138,8 +154,8 @@ def initial_curve(
     >>> r = 10 + 2 * np.cos(5 * t)
     >>> flower = Contour(np.column_stack([r * np.cos(t), r * np.sin(t)]), closed=True)
     >>> start = initial_curve(flower, length=8)
-    >>> start.n_control_points, start.dominant[:3].tolist()
-    (10, [0, 24, 48])
+    >>> start.n_control_points, start.cpda.maxima[:3].tolist()
+    (20, [0, 24, 48])
     """
     checked_contour(contour, "contour")
     if not isinstance(reading, Reading):
@@ -160,31 +176,51 @@ def initial_curve(
         spacing=max(1, steps // 2) if reading.spacing is None else reading.spacing,
     )
     periodic = contour.closed and not reading.clamped
-    needed = max(degree + 1, n_control_points) - (0 if periodic else 2)
-    stations = cpda.maxima
-    if not periodic:  # the ends have control points of their own
-        stations = stations[(stations > 0) & (stations < len(samples) - 1)]
-    if len(stations) < needed:
-        if not reading.supplemented:
-            raise DegenerateContourError(
-                f"length {steps} finds {len(stations)} maxima, at least {needed} are needed for"
-                f" degree {degree}; shorten the length or lower the degree"
-            )
-        stations = _supplemented(stations, needed, samples, periodic=periodic)
+    along, path = (
+        path_of(data, periodic=periodic, closing_point=reading.closing_point)
+        for data in (contour, samples)
+    )
+    count = _count(path, cpda, degree, reading, n_control_points)
+    is_placed = reading.start in STATIONS
+    stations = (
+        chosen_stations(reading.start, path, cpda, count) if is_placed else inner_maxima(cpda, path)
+    )
     frames = _frames(samples, cpda, reading)
     frames = Frames(frames.tangents[stations], frames.normals[stations])
-    at = samples.arc_length[stations]
-    inner = samples.points[stations] + _offsets(cpda, samples, stations, frames, degree, reading)
-    spline, parameters = _curve_and_parameters(contour, inner, at, degree, periodic, reading)
+    at = path.arc_length[stations]
+    if is_placed:
+        inner = path.points[stations] + _offsets(cpda, path, stations, frames, degree, reading)
+        found = placed_curve(
+            along, inner, at, degree, periodic=periodic, parametrization=reading.parametrization
+        )
+    else:
+        found = STARTS[reading.start](along, count + (0 if periodic else 2), degree, None)
     return InitialCurve(
-        spline=spline,
-        parameters=parameters,
+        spline=found.spline,
+        parameters=found.parameters,
+        reading=reading,
         samples=samples,
         cpda=cpda,
         stations=stations,
         frames=frames,
         dominant=_nearest_index(contour, at),
     )
+
+
+def _count(path: Contour, cpda: Cpda, degree: int, reading: Reading, asked: int | None) -> int:
+    """How many stations get a control point, apart from the ends."""
+    ends = 0 if path.closed else 2
+    if asked is not None:
+        n = whole_number(asked)
+        if n is None or not degree + 1 <= n <= len(path):
+            raise InvalidInputError(
+                f"n_control_points must be from degree + 1 = {degree + 1} to the number of points,"
+                f" {len(path)}, got {asked!r}"
+            )
+        return n - ends
+    alone = reading.start == "cpda-maxima"
+    own = len(inner_maxima(cpda, path)) if alone else own_number(path, cpda)
+    return max(degree + 1 - ends, own)
 
 
 def _sampled(
@@ -208,35 +244,9 @@ def _sampled(
         return contour.resampled(n_steps if contour.closed else n_steps + 1), CHORD_STEPS
     if length is None:
         length = DEFAULT_LENGTH
-    if reading.resampled:
-        steps = np.diff(contour.arc_length)
-        if steps.max() > EVEN_SPACING * steps.min():
-            return contour.resampled(len(contour)), length
+    if reading.resampled and reading.start != "every-nth":
+        return even_samples(contour), length
     return contour, length
-
-
-def _supplemented(stations: IntArray, needed: int, samples: Contour, *, periodic: bool) -> IntArray:
-    """Stations halved into the widest gaps until there are as many as needed.
-
-    A circle has no maxima; it still has a curve.
-    """
-    n = len(samples)
-    chosen = stations.tolist()
-    while len(chosen) < needed:
-        if periodic:
-            chosen = sorted(chosen) or [0]
-            around = [*chosen, chosen[0] + n]
-        else:
-            around = [0, *sorted(chosen), n - 1]
-        gaps = np.diff(around)
-        widest = int(np.argmax(gaps))
-        if gaps[widest] < 2:
-            raise DegenerateContourError(
-                f"contour must have more points for the degree: {n} points hold"
-                f" {len(chosen)} control points apart from the ends, {needed} are needed"
-            )
-        chosen.append((around[widest] + int(gaps[widest]) // 2) % n)
-    return np.array(sorted(chosen), dtype=np.int64)
 
 
 def _frames(samples: Contour, cpda: Cpda, reading: Reading) -> Frames:
@@ -271,7 +281,7 @@ def _unit(vectors: FloatArray) -> FloatArray:
 
 def _offsets(
     cpda: Cpda,
-    samples: Contour,
+    path: Contour,
     stations: IntArray,
     frames: Frames,
     degree: int,
@@ -280,69 +290,22 @@ def _offsets(
     """From each station to its control point, shape (k, 2), data units."""
     if reading.offset == "none":
         return np.zeros((len(stations), 2))
-    periodic = samples.closed and not reading.clamped
     if reading.offset == "difference":
-        around = _with_neighbours(samples.points[stations], samples.points, periodic, 0.0)
-        return -_bend_gain(degree) * (around[2:] - 2 * around[1:-1] + around[:-2])
+        ends = None if path.closed else path.points[[0, -1]]
+        return quasi_interpolating(path.points[stations], ends, degree)
     h = cpda.values[stations]
     if reading.offset == "squared":
         distance = float(cpda.values.max()) * h
     elif reading.offset == "cpda":
         distance = h
     else:
-        step = samples.length / (len(samples) if samples.closed else len(samples) - 1)
-        at = samples.arc_length[: len(samples)]
-        around = _with_neighbours(at[stations], at, periodic, samples.length)
+        at = path.arc_length
+        step = path.length / (len(at) - 1)
+        around = with_neighbours(at[stations], at, path.length if path.closed else None)
         spacing = 0.5 * (around[2:] - around[:-2])
         bend = np.abs(cpda.curvature(step)[stations])
-        distance = np.minimum(bend * spacing**2 * _bend_gain(degree), LARGEST_OFFSET * spacing)
+        distance = np.minimum(bend * spacing**2 * bend_gain(degree), LARGEST_OFFSET * spacing)
     return -distance[:, None] * frames.normals
-
-
-def _with_neighbours(
-    chosen: FloatArray, values: FloatArray, periodic: bool, period: float
-) -> FloatArray:
-    """The chosen values with those before the first and after the last of them."""
-    if periodic:
-        return np.concatenate([chosen[-1:] - period, chosen, chosen[:1] + period])
-    return np.concatenate([values[:1], chosen, values[-1:]])
-
-
-def _bend_gain(degree: int) -> float:
-    """(p + 1) / 24: uniform B-splines of degree p lie k h^2 (p + 1) / 24 inside (reading 9)."""
-    return 0.0 if degree == 1 else (degree + 1) / 24.0
-
-
-def _curve_and_parameters(
-    contour: Contour,
-    inner: FloatArray,
-    at: FloatArray,
-    degree: int,
-    periodic: bool,
-    reading: Reading,
-) -> tuple[BSplineCurve, FloatArray]:
-    """The curve through its control points on uniform knots, and the data's parameters."""
-    if periodic:
-        knots = periodic_knots(len(inner), degree)
-        control_points, anchors = inner, at
-    else:
-        knots = clamped_knots(len(inner) + 2, degree)
-        control_points = np.concatenate([contour.points[:1], inner, contour.points[-1:]])
-        end = contour.arc_length[len(contour) - 1]
-        anchors = np.concatenate([[0.0], at, [end]])
-    spline = BSplineCurve(knots, control_points, degree, periodic)
-    if reading.parametrization == "greville":
-        abscissae = greville_abscissae(knots, degree)[: len(control_points)]
-        parameters = greville_matched(contour, anchors, abscissae, 1.0 if periodic else None)
-    elif contour.closed and not periodic:
-        # The clamped curve ends at the last point: it has no closing segment.
-        parameters = parametrize(Contour(contour.points, closed=False), reading.parametrization)
-    else:
-        parameters = parametrize(contour, reading.parametrization)
-        if periodic:  # the first control point, not the first data point, sits at its abscissa
-            there = np.interp(at[0], contour.arc_length[: len(contour)], parameters)
-            parameters += greville_abscissae(knots, degree)[0] - there
-    return spline, parameters
 
 
 def _nearest_index(contour: Contour, at: FloatArray) -> IntArray:

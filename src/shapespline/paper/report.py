@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import tempfile
+from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -13,6 +12,8 @@ import numpy as np
 
 from shapespline.errors import FormatError
 from shapespline.formats import check_target, write_atomically
+from shapespline.paper.files import DATA_FILES, FILM, data_files, table
+from shapespline.paper.reading import LITERAL, SENSIBLE, Reading
 from shapespline.plotting import check_matplotlib
 
 if TYPE_CHECKING:
@@ -59,13 +60,17 @@ def check_folder(folder: str | os.PathLike[str]) -> Path:
     if not os.access(existing, os.W_OK | os.X_OK):
         raise FormatError(f"cannot write the report to {folder}: {existing} is write-protected")
     if folder.exists():
-        for name in (*FIGURES, *TABLES):
+        for name in (*FIGURES, *TABLES, *DATA_FILES, FILM):
             check_target(folder / name)
     return folder
 
 
 def write_report(run: PaperRun, folder: str | os.PathLike[str]) -> list[Path]:
-    """Write the figures of a run as PNG, and its table as ``report.md`` and ``table.csv``.
+    """Write the figures of a run as PNG, its table, and every intermediate result.
+
+    The table is ``report.md`` and ``table.csv``. Points, H with its maxima, frames, control points
+    and convergence are CSV; initial and final curve JSON, SVG and Python source for scipy; where
+    the run kept its curves, ``film.svg`` shows them one after another.
 
     The folder is created if its parent exists. Everything is drawn before the first file is
     written, and each file is written whole or not at all.
@@ -73,7 +78,7 @@ def write_report(run: PaperRun, folder: str | os.PathLike[str]) -> list[Path]:
     Returns
     -------
     list of Path
-        The files, in the order of ``FIGURES`` and ``TABLES``.
+        The files, in the order of ``FIGURES``, ``TABLES`` and ``DATA_FILES``, and the film.
 
     Raises
     ------
@@ -88,7 +93,8 @@ def write_report(run: PaperRun, folder: str | os.PathLike[str]) -> list[Path]:
         _draw(run, Path(drawn))
         contents = {name: (Path(drawn) / name).read_bytes() for name in FIGURES}
     contents["report.md"] = _markdown(run, rows).encode()
-    contents["table.csv"] = _csv(rows).encode()
+    contents["table.csv"] = table(("quantity", "value", "relative to the box diagonal"), rows)
+    contents |= data_files(run)
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
@@ -97,6 +103,21 @@ def write_report(run: PaperRun, folder: str | os.PathLike[str]) -> list[Path]:
     for name, data in contents.items():
         write_atomically(folder / name, data)
     return [folder / name for name in contents]
+
+
+def reading_name(reading: Reading) -> str:
+    """Literal, sensible, or the fields in which it differs from the nearer of the two."""
+    named = {"sensible": SENSIBLE, "literal": LITERAL}
+    changes = {
+        name: [
+            f"{field.name}={getattr(reading, field.name)}"
+            for field in fields(Reading)
+            if getattr(reading, field.name) != getattr(base, field.name)
+        ]
+        for name, base in named.items()
+    }
+    name = min(changes, key=lambda name: len(changes[name]))
+    return " ".join([name, *changes[name]])
 
 
 def report_rows(run: PaperRun) -> list[Row]:
@@ -108,7 +129,7 @@ def report_rows(run: PaperRun) -> list[Row]:
 
     last = fit.history[-1]
     return [
-        Row("reading", "literal" if run.literal else "sensible"),
+        Row("reading", reading_name(run.reading)),
         Row("method", fit.method),
         Row("length L", str(run.length)),
         Row("degree", str(fit.degree)),
@@ -141,7 +162,7 @@ def _draw(run: PaperRun, folder: Path) -> None:
         start.cpda.maxima,
         cpda,
         raw=start.cpda.raw,
-        threshold=None if run.literal else start.cpda.floor,
+        threshold=start.cpda.floor or None,
         title=f"Chord-to-point distance accumulation, L = {length}",
     )
     of_maximum = np.isin(start.stations, start.cpda.maxima)
@@ -172,7 +193,7 @@ def _draw(run: PaperRun, folder: Path) -> None:
 def _markdown(run: PaperRun, rows: list[Row]) -> str:
     """The table and the figures as one page."""
     lines = [
-        f"# The published method, {'literal' if run.literal else 'sensible'} reading",
+        f"# The published method, {reading_name(run.reading)} reading",
         "",
         "E is the error that the paper reports, taken at the location parameters and over n - 1"
         " for n points. The distances below it are geometric: of the data from the curve, and"
@@ -186,13 +207,6 @@ def _markdown(run: PaperRun, rows: list[Row]) -> str:
     for name in FIGURES:
         caption = name.removesuffix(".png").split("-", 1)[1].replace("-", " ")
         lines += [f"![{caption}]({name})", ""]
+    if run.fit.snapshots:
+        lines += [f"![the iterates, one after another]({FILM})", ""]
     return "\n".join(lines)
-
-
-def _csv(rows: list[Row]) -> str:
-    """The table as comma-separated values with a header."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["quantity", "value", "relative to the box diagonal"])
-    writer.writerows(rows)
-    return text.getvalue()

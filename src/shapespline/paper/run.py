@@ -1,8 +1,8 @@
-"""The published method from an outline to its final curve, with its own constants as values.
+"""The published method from an outline to its final curve.
 
-Two ways to run it: *literal*, every open point as the paper has it, and *sensible*, every open
-point as it works (METHOD, sections 2 and 3). Both end in a :class:`PaperRun`, which
-:func:`shapespline.paper_report.write_report` turns into the paper's figures and a table.
+How it is read is a :class:`shapespline.paper.Reading`, its own constants included: as published
+(``LITERAL``) or as it works (``SENSIBLE``). A run is an initial curve and its optimisation, timed:
+`initial_curve` and `optimize` give the same curve. `write_report` turns it into figures and files.
 
 References
 ----------
@@ -12,36 +12,23 @@ References
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from statistics import median
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.engines.least_squares import METHODS
-from shapespline.errors import InvalidInputError
+from shapespline.engines.least_squares import named_solver
 from shapespline.fitting import optimize
 from shapespline.paper.initial import InitialCurve, initial_curve
-from shapespline.paper.reading import LITERAL, SENSIBLE
-from shapespline.solvers import Limits, Solver, make_solver
+from shapespline.paper.reading import SENSIBLE, Reading
 
 if TYPE_CHECKING:
+    from shapespline.solvers import Limits
     from shapespline.typing import FloatArray
     from shapespline.values import BSplineCurve, Contour, Fit
 
-LITERAL_METHOD = "d-bfgs-inverse"
-SENSIBLE_METHOD = "d-bfgs"
-# The paper names no stopping rule. Until the literal run stands still: 25 000 to 35 000
-# evaluations on outlines of about 1000 points.
-LITERAL_LIMITS = Limits(max_iterations=50_000, max_evaluations=50_000, relative_decrease=1e-6)
-SENSIBLE_LIMITS = Limits(max_iterations=4000, max_evaluations=4000, relative_decrease=1e-5)
-# Where nothing holds the curve between the data, what a long run gains it gains by loops there
-# (METHOD, section 4): residuals on the curve itself hold it (LSQ-01).
-SENSIBLE_STRAY_WEIGHT = 0.1
-# The sensible reading halves gaps between dominant points that are wider than this part of the mean
-# gap: with one control point a maximum, none shapes the run between two of them.
-WIDE_GAP = 0.5
 # The initial curve takes less than a millisecond: one run alone measures the clock.
 TIMED_RUNS = 9
 
@@ -53,11 +40,8 @@ class PaperRun:
     Attributes
     ----------
     contour : Contour
-    length : int
-        The CPDA chord length L, in points.
-    literal : bool
-        Everything as the paper has it.
     start : InitialCurve
+        With the ``reading`` that it and the fit follow; ``start.cpda.length`` is L.
     fit : Fit
     start_error, final_error : float
         The paper's E before and after the optimisation, data units: at the parameters, which are
@@ -69,14 +53,22 @@ class PaperRun:
     """
 
     contour: Contour
-    length: int
-    literal: bool
     start: InitialCurve
     fit: Fit
     start_error: float
     final_error: float
     start_seconds: float
     seconds: float
+
+    @property
+    def reading(self) -> Reading:
+        """How the paper was read."""
+        return self.start.reading
+
+    @property
+    def length(self) -> int:
+        """The CPDA chord length L, in points of ``start.samples``."""
+        return self.start.cpda.length
 
 
 class TimedStart(NamedTuple):
@@ -88,48 +80,53 @@ class TimedStart(NamedTuple):
 
 
 def paper_error(contour: Contour, curve: BSplineCurve, parameters: FloatArray) -> float:
-    """The paper's E_i: (sum_{j=0..n1} |C(t_j) - Q_j|^2 / n1)^(1/2), n1 + 1 points, data units."""
-    residuals = curve(parameters) - contour.points
-    return float(np.sqrt(np.sum(residuals**2) / (len(contour) - 1)))
+    """The paper's E_i: (sum_{j=0..n1} |C(t_j) - Q_j|^2 / n1)^(1/2), n1 + 1 points, data units.
+
+    A parameter more than points is that of a closed outline's first point, come back to.
+    """
+    points = contour.polyline if len(parameters) > len(contour) else contour.points
+    residuals = curve(parameters) - points
+    return float(np.sqrt(np.sum(residuals**2) / (len(points) - 1)))
 
 
 def run_paper(
     contour: Contour,
-    length: int,
+    length: int | None = None,
     *,
-    literal: bool = False,
-    degree: int = 3,
+    arc_length: float | None = None,
+    reading: Reading = SENSIBLE,
     method: str | None = None,
-    limits: Limits | None = None,
+    degree: int = 3,
     n_control_points: int | None = None,
+    limits: Limits | None = None,
+    snapshots: int = 0,
 ) -> PaperRun:
     """Initial curve from CPDA, then control points and parameters together.
 
     Parameters
     ----------
     contour : Contour
-    length : int
-        The CPDA chord length L, in points.
-    literal : bool
-        As published: ``LITERAL`` reading (clamped and uniform, for closed data too), Algorithm 1
-        in its inverse form with H_0 = I, secant, weak Wolfe conditions, nothing held. Otherwise
-        the ``SENSIBLE`` reading and the direct form from the Gauss-Newton diagonal with strong
-        Wolfe conditions, the curve held on the data polyline where neighbours drift apart.
+    length : int, optional
+        The CPDA chord length L, in points; 8 when neither length is given.
+    arc_length : float, optional
+        The same in data units.
+    reading : Reading
+        ``SENSIBLE``, ``LITERAL`` or fields of your own; every constant of the run.
+    method : str, optional
+        Another method of :func:`shapespline.optimize` than the reading's.
     degree : int
         1 to 9.
-    method : str, optional
-        Another method of :func:`shapespline.optimize`.
-    limits : Limits, optional
-        ``LITERAL_LIMITS`` or ``SENSIBLE_LIMITS`` when not given.
     n_control_points : int, optional
-        At least so many. When not given, the sensible reading halves the gaps between dominant
-        points until none is wider than half the mean one was, because a run without a maximum of
-        H would get no control point of its own; the literal reading takes the maxima as they are.
+        How many; see `initial_curve`.
+    limits : Limits, optional
+        Other limits than the reading's.
+    snapshots : int
+        Keep the curve of every so many iterations in ``run.fit.snapshots``.
 
     Raises
     ------
     InvalidInputError
-        For a length or degree that the contour cannot take, or an unknown method.
+        For a length, degree or number that the contour cannot take, or an unknown method.
 
     Examples
     --------
@@ -140,28 +137,22 @@ def run_paper(
     >>> run.start.n_control_points, run.final_error < run.start_error
     (20, True)
     """
-    if method is not None and method not in METHODS:
-        raise InvalidInputError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
+    if method is not None:
+        named_solver(method)  # before any work
     timed = timed_start(
-        contour, length, literal=literal, degree=degree, n_control_points=n_control_points
-    )
-    start = timed.start
-    name = method or (LITERAL_METHOD if literal else SENSIBLE_METHOD)
-    began = time.perf_counter()
-    fit = optimize(
         contour,
-        start,
-        _literal_solver(name) if literal else name,
-        ends="free" if literal else None,
-        stray_weight=0.0 if literal else SENSIBLE_STRAY_WEIGHT,
-        limits=limits or (LITERAL_LIMITS if literal else SENSIBLE_LIMITS),
+        length,
+        arc_length=arc_length,
+        reading=reading,
+        degree=degree,
+        n_control_points=n_control_points,
     )
+    began = time.perf_counter()
+    fit = optimize(contour, timed.start, method, limits=limits, snapshots=snapshots)
     return PaperRun(
         contour=contour,
-        length=int(length),
-        literal=literal,
-        start=start,
-        fit=replace(fit, method=name),
+        start=timed.start,
+        fit=fit,
         start_error=timed.error,
         final_error=fit.history[-1].paper_error,
         start_seconds=timed.seconds,
@@ -171,47 +162,26 @@ def run_paper(
 
 def timed_start(
     contour: Contour,
-    length: int,
+    length: int | None = None,
     *,
-    literal: bool = False,
+    arc_length: float | None = None,
+    reading: Reading = SENSIBLE,
     degree: int = 3,
     n_control_points: int | None = None,
 ) -> TimedStart:
     """The first half of :func:`run_paper`, with its time: the median of several runs."""
+    make = partial(
+        initial_curve,
+        contour,
+        length,
+        arc_length=arc_length,
+        reading=reading,
+        degree=degree,
+        n_control_points=n_control_points,
+    )
     seconds = []
     for _ in range(TIMED_RUNS):
         began = time.perf_counter()
-        start = _start(contour, length, literal, degree, n_control_points)
+        start = make()
         seconds.append(time.perf_counter() - began)
-    error = paper_error(contour, start.spline, start.parameters)
-    return TimedStart(start, error, median(seconds))
-
-
-def _start(
-    contour: Contour, length: int, literal: bool, degree: int, n_control_points: int | None
-) -> InitialCurve:
-    """The initial curve, filled where it is to be."""
-    make = partial(
-        initial_curve, contour, length, degree=degree, reading=LITERAL if literal else SENSIBLE
-    )
-    start = make(n_control_points=n_control_points or 0)
-    filled = literal or n_control_points is not None
-    return start if filled else make(n_control_points=_evenly_filled(start))
-
-
-def _evenly_filled(start: InitialCurve) -> int:
-    """Control points once every gap wider than ``WIDE_GAP`` means is halved until it is not."""
-    stations, n = start.stations, len(start.samples)
-    if start.spline.periodic:
-        gaps = np.diff(np.concatenate([stations, stations[:1] + n]))
-    else:
-        gaps = np.diff(np.concatenate([[0], stations, [n - 1]]))
-    halvings = np.maximum(np.ceil(np.log2(gaps / (WIDE_GAP * gaps.mean())) - 1e-9), 0.0)
-    return start.n_control_points + int(np.sum(2.0**halvings - 1.0))
-
-
-def _literal_solver(name: str) -> str | Solver[Any, Any]:
-    """A quasi-Newton method as published: H_0 = I, weak Wolfe conditions (Eq. 6)."""
-    if name == "levenberg-marquardt":
-        return name
-    return make_solver(name, start_diagonal="identity", wolfe="weak")
+    return TimedStart(start, paper_error(contour, start.spline, start.parameters), median(seconds))

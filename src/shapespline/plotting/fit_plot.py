@@ -40,6 +40,9 @@ FONT_SIZE = 10.0
 # Samples of a curve for each polynomial span; a picture of 1600 pixels shows no more.
 SAMPLES = 40
 
+# Level of the band that is drawn around a fit to points with errors.
+BAND_LEVEL = 0.95
+
 
 def plot_fit(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     """Draw data, control polygons and curves, and below them the error of each data point.
@@ -60,7 +63,7 @@ def plot_fit(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     MissingExtraError
         If matplotlib is not installed.
     UnknownFormatError
-        If the path does not end in ``.png``.
+        If the path ends neither in ``.png`` nor in ``.svg``.
     FormatError
         If the file cannot be written.
 
@@ -90,6 +93,7 @@ def plot_fit(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     draw_points(shape_axes, contours)
     draw_curves(shape_axes, [fit.spline for fit in drawing])
     _draw_outliers(shape_axes, drawing)
+    _draw_bands(shape_axes, drawing)
     equal_axes(shape_axes)
     _draw_errors(error_axes, [_errors(fit) for fit in drawing])
     figure.suptitle(_caption(drawing), fontsize=FONT_SIZE, color=INK)
@@ -101,10 +105,10 @@ def plot_fit(drawing: Drawing, path: str | os.PathLike[str]) -> None:
 
 
 def check_picture(path: str | os.PathLike[str]) -> None:
-    """Raise before any work if no PNG file can be drawn, or written there."""
+    """Raise before any work if no such picture can be drawn, or written there."""
     check_matplotlib()
-    if Path(path).suffix.lower() != ".png":
-        raise UnknownFormatError(f"{Path(path).name}: pictures are written as .png only")
+    if Path(path).suffix.lower() not in (".png", ".svg"):
+        raise UnknownFormatError(f"{Path(path).name}: pictures are written as .png or .svg only")
     check_target(path)
 
 
@@ -135,8 +139,16 @@ def plane_height(contours: Sequence[Contour], *, width: float = 10.0) -> float:
 
 
 def save(figure: Figure, path: str | os.PathLike[str]) -> None:
-    """Write a figure as PNG, without a date or the name of a program, whole or not at all."""
+    """Write a figure without a date or the name of a program, whole or not at all."""
     drawn, packed = io.BytesIO(), io.BytesIO()
+    if Path(path).suffix.lower() == ".svg":
+        from matplotlib import rc_context
+
+        # A fixed salt names the same parts the same way every time; letters stay letters.
+        with rc_context({"svg.hashsalt": "shapespline", "svg.fonttype": "none"}):
+            figure.savefig(drawn, format="svg", metadata={"Date": None, "Creator": None})
+        write_atomically(path, drawn.getvalue())
+        return
     figure.savefig(drawn, format="png", dpi=DPI, metadata={"Software": None})
     # A palette holds the few colours of a drawing and their mixtures in a third of the bytes.
     picture = Image.open(drawn).convert("RGB")
@@ -310,6 +322,17 @@ def _draw_outliers(axes: Axes, drawing: Drawing) -> None:
     if len(points):
         label = f"left out, {len(points)} points"
         axes.plot(*points.T, "x", ms=5.0, mew=1.0, color=RED, label=label, zorder=4)
+
+
+def _draw_bands(axes: Axes, drawing: Drawing) -> None:
+    """The bands of fits to points with errors, a strip each."""
+    label = f"{BAND_LEVEL:.0%} band"
+    for fit in drawing:
+        if fit.uncertainty is not None:
+            band = fit.band(BAND_LEVEL)
+            strip = np.concatenate([band.left, band.right[::-1]])
+            axes.fill(*strip.T, color=RED, alpha=0.3, lw=0, label=label, zorder=2)
+            label = "_nolegend_"
 
 
 def _caption(drawing: Drawing) -> str:

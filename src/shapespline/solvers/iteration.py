@@ -165,6 +165,7 @@ def minimize(
     *,
     limits: Limits | None = None,
     callback: Callable[[Iteration], bool | None] | None = None,
+    observer: Callable[[Iteration, FloatArray], None] | None = None,
 ) -> Result:
     """Minimise a problem's cost from a start.
 
@@ -180,6 +181,8 @@ def minimize(
         When to stop.
     callback : callable, optional
         Called with every record, the start's included; a true answer cancels the run.
+    observer : callable, optional
+        Called with every record and the point that it is about, before the callback.
 
     Returns
     -------
@@ -224,6 +227,8 @@ def minimize(
             seconds=time.perf_counter() - began,
         )
         history.append(record)
+        if observer is not None:
+            observer(record, state.x)
         stop = _stop(limits, state, history, solver.patience)
         if callback is not None and callback(record) and stop is None:
             stop = Stop.CANCELLED

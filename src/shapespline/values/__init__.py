@@ -13,6 +13,8 @@ from shapespline.values.knots import (
 )
 from shapespline.values.piece import CORNER_TURN, EXACT_TURN, SMOOTH_TURN, Piece
 from shapespline.values.shape import Shape, checked_parents, nesting_depth
+from shapespline.values.snapshot import Snapshot
+from shapespline.values.uncertainty import Band, Uncertainty
 from shapespline.values.view_box import ViewBox
 
 __all__ = [
@@ -20,12 +22,15 @@ __all__ = [
     "EXACT_TURN",
     "SMOOTH_TURN",
     "BSplineCurve",
+    "Band",
     "Contour",
     "Drawing",
     "Fit",
     "Piece",
     "Shape",
+    "Snapshot",
     "Status",
+    "Uncertainty",
     "ViewBox",
     "check_count",
     "check_degree",

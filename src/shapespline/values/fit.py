@@ -8,13 +8,17 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from shapespline.errors import InvalidInputError
+
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
     from shapespline.monitor import Iteration
-    from shapespline.typing import FloatArray, IntArray
+    from shapespline.typing import ArrayLike, FloatArray, IntArray
     from shapespline.values.contour import Contour
     from shapespline.values.curve import BSplineCurve
+    from shapespline.values.snapshot import Snapshot
+    from shapespline.values.uncertainty import Band, Uncertainty
 from shapespline.values.piece import CORNER_TURN, Piece
 
 
@@ -81,6 +85,10 @@ class Fit:
         The pieces that the curve was made of, end to end; empty for a single spline.
     outliers : ndarray
         Indices, among the points that were given, of those left out on request.
+    snapshots : tuple of Snapshot
+        Curves on the way, where `optimize` was asked to keep them.
+    uncertainty : Uncertainty or None
+        Where the errors of the points were given.
     """
 
     spline: BSplineCurve
@@ -95,6 +103,8 @@ class Fit:
     method: str
     sections: tuple[Piece, ...] = field(default=(), repr=False)
     outliers: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64), repr=False)
+    snapshots: tuple[Snapshot, ...] = field(default=(), repr=False)
+    uncertainty: Uncertainty | None = field(default=None, repr=False)
 
     @cached_property
     def curve(self) -> BSpline:
@@ -168,6 +178,36 @@ class Fit:
             return self.n_control_points
         stored = sum(len(piece.control_points) - 1 for piece in self.pieces)
         return stored + int(not self.closed)
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Covariance of the control points, x and y in turn, shape (2 m, 2 m)."""
+        return self._known_uncertainty().covariance
+
+    def band(
+        self,
+        level: float = 0.95,
+        *,
+        simultaneous: bool = False,
+        parameters: ArrayLike | int = 1000,
+    ) -> Band:
+        """The band that holds the true curve with a probability; see `confidence_band`."""
+        from shapespline.geometry import confidence_band
+
+        return confidence_band(
+            self.spline,
+            self._known_uncertainty(),
+            level,
+            simultaneous=simultaneous,
+            parameters=parameters,
+        )
+
+    def _known_uncertainty(self) -> Uncertainty:
+        if self.uncertainty is None:
+            raise InvalidInputError(
+                "fit knows no errors of its points: make it with optimize(..., sigma=)"
+            )
+        return self.uncertainty
 
     @property
     def kept(self) -> bool:

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 from tests.support.reference import EPS
-from tests.support.shapes import Start, flower, moved, on_circle, random_curve, wave
+from tests.support.shapes import Start, flower, moved, on_circle, plain_start, random_curve, wave
 
+from shapespline.engines.least_squares import DEFAULT_LIMITS
 from shapespline.errors import DroppedPointsWarning, InvalidInputError
-from shapespline.fitting.optimization import DEFAULT_LIMITS, optimize
+from shapespline.fitting import optimize
 from shapespline.geometry.distances import RELATIVE_GAP, two_sided_distance
-from shapespline.paper.initial import initial_curve
 from shapespline.solvers.iteration import Limits
 from shapespline.values.contour import Contour
 from shapespline.values.curve import BSplineCurve
@@ -28,7 +28,7 @@ SHORT = Limits(max_iterations=25)
 def test_weights_pull():
     rng = np.random.default_rng(0)
     contour = Contour(wave(120).points + rng.normal(0, 0.3, (120, 2)), False)
-    start = initial_curve(contour, arc_length=6.0)
+    start = plain_start(contour, arc_length=6.0)
     heavy = np.ones(120)
     heavy[60] = 1e4
     even, pulled = optimize(contour, start), optimize(contour, start, weights=heavy)
@@ -49,9 +49,9 @@ def test_repeated_points_have_parameters_and_weights_of_their_own():
     contour = flower(160)
     with pytest.warns(DroppedPointsWarning):
         doubled = Contour(np.repeat(contour.points, 2, axis=0), True)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     once = optimize(contour, start)
-    fit = optimize(doubled, initial_curve(doubled, length=5))
+    fit = optimize(doubled, plain_start(doubled, length=5))
     assert fit.parameters.shape == (320,)
     assert_array_equal(fit.parameters, np.repeat(once.parameters, 2))
     assert_array_equal(fit.control_points, once.control_points)
@@ -63,7 +63,7 @@ def test_repeated_points_have_parameters_and_weights_of_their_own():
 
 def test_a_fit_is_a_start():
     contour = flower(160)
-    first = optimize(contour, initial_curve(contour, length=5), limits=Limits(max_iterations=4))
+    first = optimize(contour, plain_start(contour, length=5), limits=Limits(max_iterations=4))
     assert isinstance(first, Fit)
     second = optimize(contour, first)
     # It starts at nearest foot parameters: no residual is longer than where the first run ended.
@@ -77,10 +77,10 @@ def test_a_fit_is_a_start():
 
 def test_powers_of_two_commute_exactly():
     contour = flower(160)
-    fit = optimize(contour, initial_curve(contour, length=5))
+    fit = optimize(contour, plain_start(contour, length=5))
     for scale in (2.0**-30, 4.0, 2.0**30):
         other = Contour(scale * contour.points, True)
-        found = optimize(other, initial_curve(other, length=5))
+        found = optimize(other, plain_start(other, length=5))
         assert_array_equal(found.control_points, scale * fit.control_points)
 
 
@@ -91,9 +91,9 @@ def test_powers_of_two_commute_exactly():
 )
 def test_similarity_transforms_commute(closed, angle, scale, shift):
     contour = Contour(flower(160).points, closed)
-    fit = optimize(contour, initial_curve(contour, length=5))
+    fit = optimize(contour, plain_start(contour, length=5))
     other = Contour(moved(contour.points, angle, scale, shift), closed)
-    found = optimize(other, initial_curve(other, length=5))
+    found = optimize(other, plain_start(other, length=5))
     # Both stop where the cost falls by less than 1e-6 of itself. Rounding of the place (1e-9 of
     # the shape at worst here) moves the path by as much and may shift the stop by an iteration:
     # the costs then differ by a few of these decreases, the distances by the root of that.
@@ -107,10 +107,10 @@ def test_similarity_transforms_commute(closed, angle, scale, shift):
 def test_reversed_open_data_give_the_reversed_curve():
     contour = wave(150)
     back = Contour(contour.points[::-1], False)
-    fit = optimize(contour, initial_curve(contour, length=12))
-    start = initial_curve(contour, length=12)
+    fit = optimize(contour, plain_start(contour, length=12))
+    start = plain_start(contour, length=12)
     mirrored = Start(
-        BSplineCurve(1 - start.spline.knots[::-1], start.control_points[::-1], 3),
+        BSplineCurve(1 - start.spline.knots[::-1], start.spline.control_points[::-1], 3),
         1 - start.parameters[::-1],
     )
     found = optimize(back, mirrored)
@@ -156,7 +156,7 @@ def test_a_sampled_spline_is_recovered(degree, periodic):
 
 
 def test_exact_data_cost_nothing():
-    knots_source = initial_curve(flower(160), length=5)
+    knots_source = plain_start(flower(160), length=5)
     truth, u = knots_source.spline, knots_source.parameters
     contour = Contour(truth(u), True)
     fit = optimize(contour, Start(truth, u))
@@ -171,7 +171,7 @@ def test_exact_data_cost_nothing():
 
 def test_bad_arguments():
     contour = flower(160)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     with pytest.raises(InvalidInputError, match=r"method must be one of .*got 'newton'"):
         optimize(contour, start, "newton")
     for bad in (0, -1.0, np.nan):
@@ -204,7 +204,7 @@ def test_bad_arguments():
 @pytest.mark.parametrize("weights", ["heavy", [["a"]], None, np.ones((160, 1))])
 def test_weights_that_are_none(weights):
     contour = flower(160)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     if weights is None:
         assert optimize(contour, start, weights=None, limits=SHORT).kept
         return
@@ -227,7 +227,7 @@ def test_data_whose_squares_underflow_are_refused(scale):
 def test_the_smallest_data_are_fitted_like_any_other():
     contour = flower(160)
     small = Contour(2.0**-180 * contour.points, True)
-    fit = optimize(small, initial_curve(small, length=5))
-    expected = optimize(contour, initial_curve(contour, length=5))
+    fit = optimize(small, plain_start(small, length=5))
+    expected = optimize(contour, plain_start(contour, length=5))
     assert_array_equal(fit.control_points * 2.0**180, expected.control_points)
     assert fit.hausdorff_distance == 2.0**-180 * expected.hausdorff_distance

@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 from tests.support.reference import EPS
-from tests.support.shapes import Start, flower, wave
+from tests.support.shapes import Start, flower, plain_start, wave
 
 from checks import two_sided
 from shapespline.engines.least_squares import METHODS
 from shapespline.fitting import optimize
-from shapespline.paper.initial import initial_curve
 from shapespline.paper.reading import LITERAL
 from shapespline.solvers.iteration import Limits
 from shapespline.solvers.levenberg_marquardt import LevenbergMarquardt
@@ -24,7 +23,9 @@ from shapespline.values.contour import Contour
 from shapespline.values.curve import BSplineCurve
 from shapespline.values.fit import Status
 
-methods = pytest.mark.parametrize("method", METHODS)
+# Two move the knots as well: another problem (tests/unit/engines/least_squares).
+ON_FIXED_KNOTS = [m for m in METHODS if m not in ("insertion-removal", "differential-evolution")]
+methods = pytest.mark.parametrize("method", ON_FIXED_KNOTS)
 SHORT = Limits(max_iterations=25)
 
 
@@ -69,7 +70,7 @@ def assert_gains_half(fit, best):
 @pytest.mark.parametrize("closed", [True, False], ids=["closed", "open"])
 def test_every_method_lowers_the_error(method, closed):
     contour = Contour(flower(160).points, closed)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     fit = optimize(contour, start, method, limits=SHORT)
     assert_honest(fit, contour)
     assert fit.method == method
@@ -80,7 +81,7 @@ def test_every_method_lowers_the_error(method, closed):
 @methods
 def test_every_method_lowers_the_error_of_the_literal_start(method):
     contour = flower(160)
-    start = initial_curve(contour, length=5, reading=LITERAL)
+    start = plain_start(contour, length=5, reading=LITERAL)
     fit = optimize(contour, start, method, limits=SHORT)
     assert_gains_half(fit, optimize(contour, start))
     assert not fit.spline.periodic
@@ -92,20 +93,20 @@ def test_every_method_lowers_the_error_of_the_literal_start(method):
 @pytest.mark.parametrize("closed", [True, False], ids=["closed", "open"])
 def test_every_degree(degree, closed):
     contour = Contour(flower(160).points, closed)
-    start = initial_curve(contour, length=5, degree=degree)
+    start = plain_start(contour, length=5, degree=degree)
     fit = optimize(contour, start, limits=SHORT)
     assert_honest(fit, contour)
     assert fit.degree == degree
-    assert fit.n_control_points == start.n_control_points
+    assert fit.n_control_points == start.spline.n_control_points
     assert_array_equal(fit.knots, start.spline.knots)
     assert fit.history[-1].cost < fit.history[0].cost
 
 
 def test_levenberg_marquardt_finds_what_the_others_creep_to():
     contour = flower(160)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     best = optimize(contour, start)
-    for method in METHODS:
+    for method in ON_FIXED_KNOTS:
         found = optimize(contour, start, method, limits=SHORT)
         # It stops where the cost falls by 1e-6 of itself, twice in a row.
         assert best.history[-1].cost <= found.history[-1].cost * (1 + 1e-4)
@@ -113,7 +114,7 @@ def test_levenberg_marquardt_finds_what_the_others_creep_to():
 
 def test_solvers_may_be_passed():
     contour = flower(160)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     for solver, name in (
         (make_solver("d-bfgs-inverse", start_diagonal="identity", wolfe="weak"), None),
         (LevenbergMarquardt(start_damping=10.0), "LevenbergMarquardt"),
@@ -126,7 +127,7 @@ def test_solvers_may_be_passed():
 @methods
 def test_the_same_bits_again(method):
     contour = flower(160)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     one = optimize(contour, start, method, limits=SHORT)
     two = optimize(contour, start, method, limits=SHORT)
     assert_array_equal(one.control_points, two.control_points)
@@ -138,7 +139,7 @@ def test_the_same_bits_again(method):
 
 
 def test_kept_without_a_tolerance():
-    fit = optimize(flower(160), initial_curve(flower(160), length=5))
+    fit = optimize(flower(160), plain_start(flower(160), length=5))
     assert fit.status == Status.KEPT
     assert fit.kept
     assert fit.tolerance == fit.hausdorff_distance
@@ -148,7 +149,7 @@ def test_kept_without_a_tolerance():
 
 def test_a_tolerance_stops_as_soon_as_it_is_met():
     contour = flower(160)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     whole = optimize(contour, start)
     fit = optimize(contour, start, tolerance=3 * whole.hausdorff_distance)
     assert fit.status == Status.KEPT
@@ -160,7 +161,7 @@ def test_a_tolerance_stops_as_soon_as_it_is_met():
 
 def test_a_tolerance_out_of_reach_is_exceeded():
     contour = flower(160)
-    fit = optimize(contour, initial_curve(contour, length=5), tolerance=1e-6)
+    fit = optimize(contour, plain_start(contour, length=5), tolerance=1e-6)
     assert fit.status == Status.EXCEEDED
     assert not fit.kept
     assert "tolerance 1e-06 not reached" in fit.status.value
@@ -189,7 +190,7 @@ def test_a_one_sided_fit_is_not_called_kept():
 @pytest.mark.parametrize("method", ["levenberg-marquardt", "l-bfgs"])
 def test_a_budget_that_ran_out(limits, method):
     contour = flower(160)
-    fit = optimize(contour, initial_curve(contour, length=5), method, limits=limits)
+    fit = optimize(contour, plain_start(contour, length=5), method, limits=limits)
     assert fit.status == Status.BUDGET
     assert "ran out" in fit.status.value
     assert "raise max_" in fit.status.value
@@ -199,7 +200,7 @@ def test_a_budget_that_ran_out(limits, method):
 def test_a_budget_that_ran_out_with_the_tolerance_met_is_kept():
     # Nothing of the promise is missing: the sentence and `kept` must not contradict each other.
     contour = flower(160)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     once = optimize(contour, start, limits=Limits(max_iterations=1))
     fit = optimize(
         contour, start, tolerance=2 * once.hausdorff_distance, limits=Limits(max_iterations=1)
@@ -211,7 +212,7 @@ def test_a_budget_that_ran_out_with_the_tolerance_met_is_kept():
 @pytest.mark.parametrize("method", ["levenberg-marquardt", "d-bfgs"])
 def test_the_callback_sees_every_iteration_and_cancels(method):
     contour = flower(160)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     seen = []
     whole = optimize(contour, start, method, callback=seen.append, limits=SHORT)
     assert tuple(seen) == whole.history
@@ -229,7 +230,7 @@ def test_the_callback_sees_every_iteration_and_cancels(method):
 def test_ends(ends):
     rng = np.random.default_rng(3)
     contour = Contour(wave(150).points + rng.normal(0, 0.1, (150, 2)), False)
-    fit = optimize(contour, initial_curve(contour, length=12), ends=ends, limits=SHORT)
+    fit = optimize(contour, plain_start(contour, length=12), ends=ends, limits=SHORT)
     gaps = np.hypot(*(fit.control_points[[0, -1]] - contour.points[[0, -1]]).T)
     if ends == "interpolated":
         assert gaps.max() <= 4 * EPS * 20  # moved to the middle of the data and back
@@ -237,14 +238,14 @@ def test_ends(ends):
         assert (gaps > 1e-6).all()
     assert_honest(fit, contour)
     if ends == "interpolated":
-        default = optimize(contour, initial_curve(contour, length=12), limits=SHORT)
+        default = optimize(contour, plain_start(contour, length=12), limits=SHORT)
         assert_array_equal(default.control_points, fit.control_points)
 
 
 def test_fitted_ends_cost_less_than_interpolated_and_free_ones_least():
     rng = np.random.default_rng(3)
     contour = Contour(wave(150).points + rng.normal(0, 0.1, (150, 2)), False)
-    start = initial_curve(contour, length=12)
+    start = plain_start(contour, length=12)
     costs = [
         optimize(contour, start, ends=ends).history[-1].cost
         for ends in ("interpolated", "fitted", "free")
@@ -258,7 +259,7 @@ def test_fitted_ends_cost_less_than_interpolated_and_free_ones_least():
 def test_stray_residuals_keep_the_curve_near_the_data(outline):
     hand = outline("hand620_closed")
     contour = Contour(hand.points * (10 / hand.box_diagonal), True)
-    start = initial_curve(contour, 3)
+    start = plain_start(contour, 3)
     plain, held = optimize(contour, start), optimize(contour, start, stray_weight=0.1)
     assert plain.hausdorff_distance > 10 * plain.max_distance
     assert held.hausdorff_distance <= 3 * held.max_distance
@@ -271,7 +272,7 @@ def test_stray_residuals_keep_the_curve_near_the_data(outline):
 @pytest.mark.slow
 def test_real_shapes(outline, name):
     contour = outline(name)
-    start = initial_curve(contour, length=5)
+    start = plain_start(contour, length=5)
     fit = optimize(contour, start, stray_weight=0.1, limits=Limits(max_iterations=40))
     assert fit.history[-1].cost < 0.25 * fit.history[0].cost
     assert_honest(fit, contour)

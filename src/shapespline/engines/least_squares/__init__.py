@@ -1,6 +1,15 @@
 """The least-squares engine: control points and location parameters together."""
 
-from shapespline.engines.least_squares.problem import CurveProblem
+from shapespline.engines.least_squares.measurement import checked_measurement, measured
+from shapespline.engines.least_squares.methods import METHODS, named_solver
+from shapespline.engines.least_squares.problem import ENDS, CurveProblem
+from shapespline.engines.least_squares.settings import (
+    DEFAULT_LIMITS,
+    RunSettings,
+    path_of,
+    run_data,
+    settings_of,
+)
 from shapespline.engines.least_squares.smoothing import (
     FINAL_LIMITS,
     PENALTY,
@@ -10,44 +19,71 @@ from shapespline.engines.least_squares.smoothing import (
     straight_line,
 )
 from shapespline.engines.least_squares.solve import (
-    DEFAULT_LIMITS,
-    METHODS,
     Minimized,
+    RunArguments,
     Start,
     given_weights,
     minimized,
-    named_solver,
     summed_weights,
 )
-from shapespline.engines.least_squares.starts.baselines import dominant_start, uniform_start
 from shapespline.engines.least_squares.starts.equidistribution import (
     STRAY_WEIGHT,
     Balanced,
     balanced_start,
 )
+from shapespline.engines.least_squares.starts.named import STARTS
+from shapespline.engines.least_squares.starts.placed import (
+    bend_gain,
+    placed_curve,
+    quasi_interpolating,
+    with_neighbours,
+)
+from shapespline.engines.least_squares.starts.stations import (
+    STATIONS,
+    chosen_stations,
+    even_samples,
+    inner_maxima,
+    own_number,
+)
 from shapespline.engines.least_squares.streamed import MOST_PASSES, least_squares
 
 __all__ = [
     "DEFAULT_LIMITS",
+    "ENDS",
     "FINAL_LIMITS",
     "METHODS",
     "MOST_PASSES",
     "PENALTY",
+    "STARTS",
+    "STATIONS",
     "STRAY_WEIGHT",
     "Balanced",
     "CurveProblem",
     "Minimized",
+    "RunArguments",
+    "RunSettings",
     "Smoothed",
     "Start",
     "balanced_start",
-    "dominant_start",
+    "bend_gain",
+    "checked_measurement",
+    "chosen_stations",
+    "even_samples",
     "given_weights",
+    "inner_maxima",
     "least_squares",
+    "measured",
     "minimized",
     "named_solver",
+    "own_number",
+    "path_of",
+    "placed_curve",
+    "quasi_interpolating",
+    "run_data",
+    "settings_of",
     "smooth_start",
     "smoothed",
     "straight_line",
     "summed_weights",
-    "uniform_start",
+    "with_neighbours",
 ]

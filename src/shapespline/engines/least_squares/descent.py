@@ -43,6 +43,7 @@ def descend(
     *,
     limits: Limits,
     callback: Callable[[Iteration], bool | None] | None = None,
+    observer: Callable[[Iteration, FloatArray], None] | None = None,
     ask: Callable[[int], bool] = go_on,
 ) -> Result:
     """What `minimize` finds from a start.
@@ -56,17 +57,20 @@ def descend(
     limits : Limits
     callback : callable, optional
         Called with every record; a true answer cancels the run.
+    observer : callable, optional
+        Called with every record and its point.
     ask : callable
         Asked now and then, without a callback, whether to end, and told the number of control
         points.
     """
     size = problem.template.n_control_points
-    if callback is None and limits.reached is None and isinstance(solver, LevenbergMarquardt):
+    unheard = callback is None and observer is None and limits.reached is None
+    if unheard and isinstance(solver, LevenbergMarquardt):
         result = _descended(solver, problem, x, limits, ask)
         if result is not None:
             return result
     heard = callback or (None if ask is go_on else lambda _: ask(size))
-    return minimize(solver, problem, x, limits=limits, callback=heard)
+    return minimize(solver, problem, x, limits=limits, callback=heard, observer=observer)
 
 
 def _descended(

@@ -15,7 +15,7 @@ import numpy as np
 
 from shapespline import _kernels
 from shapespline.errors import InvalidInputError
-from shapespline.geometry import nondecreasing
+from shapespline.geometry import nearest, nondecreasing
 from shapespline.solvers import Proposal
 from shapespline.values import BSplineCurve
 
@@ -26,8 +26,10 @@ if TYPE_CHECKING:
 # Entries of the Gauss-Newton diagonal below this part of the largest are raised to it (LSQ-03).
 DIAGONAL_FLOOR = 1e-12
 ENDS = ("interpolated", "fitted", "free")
-# Newton steps of a foot point between two steps of the control points.
+# Newton steps towards a foot point nearby.
 _FOOT_STEPS = 3
+# Relative damping for control points that no data hold; the others do not notice.
+_BARE_DAMPING = 1e-12
 # The kernel's names for which parameters stay.
 _HOLD_ENDS, _HOLD_ALL = 1, 2
 
@@ -87,6 +89,12 @@ class CurveProblem:
             *self._knots, points, weights, held, ends == "interpolated", stray_weight
         )
 
+    def on(self, template: BSplineCurve) -> CurveProblem:
+        """The same data on other knots."""
+        return CurveProblem(
+            self.points, template, self.weights, ends=self.ends, stray_weight=self.stray_weight
+        )
+
     def pack(self, control_points: FloatArray, parameters: FloatArray) -> FloatArray:
         """Control points (m, 2) and parameters (n,) as one vector."""
         return np.concatenate([control_points.ravel(), parameters])
@@ -144,12 +152,39 @@ class CurveProblem:
         if not solved:
             return None
         step += x
-        trial = step[self._split :]
+        self._put_in_order(step[self._split :], parameters)
+        return Proposal(step, cost - predicted, gradient_norm)
+
+    def joint_step(self, x: FloatArray, parameter_damping: float) -> Proposal | None:
+        """Gauss-Newton step of control points and parameters; None if it has no solution.
+
+        The parameters alone are damped: ``(1 + damping) |T_j|^2`` on their diagonal. They may leave
+        the order of the data.
+        """
+        control_points, parameters = self.unpack(x)
+        step = np.empty_like(x)
+        # Part of a residual along the tangent that a damped parameter leaves.
+        along = np.full(len(parameters), parameter_damping / (1.0 + parameter_damping))
+        solved, cost, predicted, gradient_norm = self.kernel.damped_step(
+            control_points, parameters, _BARE_DAMPING, *self.unpack(step), along
+        )
+        step += x
+        return Proposal(step, cost - predicted, gradient_norm) if solved else None
+
+    def solved(self, x: FloatArray) -> FloatArray:
+        """The vector with its parameters in data order and the control points that suit them."""
+        ordered = x.copy()
+        parameters = ordered[self._split :]
+        self._put_in_order(parameters, parameters.copy())
+        found = self.metric_step(ordered, "point", _BARE_DAMPING)
+        return ordered if found is None else found.x
+
+    def _put_in_order(self, parameters: FloatArray, held: FloatArray) -> None:
+        """Sort parameters in place, between the ends of those before where ends are held."""
         begin, end = self.template.domain
         if self.ends != "free":
-            np.clip(trial, parameters[0], parameters[-1], out=trial)
-        trial[:] = nondecreasing(trial, end - begin if self.template.periodic else None)
-        return Proposal(step, cost - predicted, gradient_norm)
+            np.clip(parameters, held[0], held[-1], out=parameters)
+        parameters[:] = nondecreasing(parameters, end - begin if self.template.periodic else None)
 
     def metric_step(self, x: FloatArray, metric: Metric, damping: float) -> Proposal | None:
         """Control points that a quadratic model of the squared distances asks for.
@@ -190,6 +225,25 @@ class CurveProblem:
         return np.divide(ratio, total, out=np.zeros_like(ratio), where=outer)
 
     def projected(self, x: FloatArray) -> FloatArray:
+        """The vector with every parameter at the nearest foot point on the whole curve.
+
+        No residual grows. A foot point nearby would do after a small step; after a large one, or at
+        the start, it stays on the wrong branch whatever follows.
+        """
+        moved = x.copy()
+        parameters = self.unpack(moved)[1]
+        curve = self.curve(x)
+        feet = nearest(curve, self.points)
+        lap = np.zeros(len(parameters))
+        if curve.periodic:  # the foot's lap is the one nearest to where the parameter was
+            lap = np.round(parameters - feet.parameters)
+        nearer = feet.distances_sq < ((curve(parameters) - self.points) ** 2).sum(axis=1)
+        if self.ends != "free":
+            nearer[[0, -1]] = False
+        parameters[nearer] = (feet.parameters + lap)[nearer]
+        return moved
+
+    def projected_nearby(self, x: FloatArray) -> FloatArray:
         """The vector with every parameter moved to a foot point near it; no residual grows."""
         moved = x.copy()
         control_points, parameters = self.unpack(moved)

@@ -2,46 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
 import numpy as np
 
 from shapespline.engines.least_squares.descent import descend, go_on
 from shapespline.engines.least_squares.problem import CurveProblem
+from shapespline.engines.least_squares.settings import DEFAULT_LIMITS
 from shapespline.errors import InvalidInputError
 from shapespline.geometry import nondecreasing, two_sided_distance
-from shapespline.solvers import METHODS as QUASI_NEWTON
-from shapespline.solvers import (
-    Alternation,
-    FixedParameters,
-    LevenbergMarquardt,
-    Limits,
-    QuasiNewton,
-    Result,
-    Solver,
-    make_solver,
-)
 from shapespline.validation import float_array
-from shapespline.values import BSplineCurve, Contour
+from shapespline.values import BSplineCurve, Contour, Snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from shapespline.monitor import Callback, Iteration
+    from shapespline.solvers import Limits, Result, Solver
     from shapespline.typing import ArrayLike, FloatArray
-
-# Methods for comparison, beside the generalised BFGS family: foot points in turn with control
-# points, or parameters that stay.
-COMPARISONS: dict[str, Alternation | FixedParameters] = {
-    "pdm": Alternation("point"),
-    "tdm": Alternation("tangent"),
-    "sdm": Alternation("squared"),
-    "fixed-parameters": FixedParameters(),
-}
-METHODS = ("levenberg-marquardt", *QUASI_NEWTON, *COMPARISONS)
-# Enough for Levenberg-Marquardt to converge and for the quasi-Newton family to come near.
-DEFAULT_LIMITS = Limits(max_iterations=300, max_evaluations=2000, relative_decrease=1e-6)
 
 
 class Start(Protocol):
@@ -57,17 +36,70 @@ class Start(Protocol):
 
 
 class Minimized(NamedTuple):
-    """A curve, how the iterations that led to it ended, and their records."""
+    """A curve, how the iterations that led to it ended, their records, curves on the way."""
 
     spline: BSplineCurve
     run: Result
     history: tuple[Iteration, ...]
+    snapshots: tuple[Snapshot, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunArguments:
+    """What a run is asked for, beside its data, its start and its method.
+
+    ``weights`` (n,) are those of the points; the others are as `optimize` takes them.
+    """
+
+    tolerance: float | None = None
+    weights: FloatArray | None = None
+    ends: str | None = None
+    stray_weight: float = 0.0
+    limits: Limits = DEFAULT_LIMITS
+    callback: Callback | None = None
+    snapshots: int = 0
+
+
+class Album:
+    """Keeps every so many curves of a run.
+
+    Parameters
+    ----------
+    every : int
+        Iterations from one to the next; 0 keeps none.
+    middle : ndarray, shape (2,)
+        Where the data were before they were moved about it.
+    """
+
+    def __init__(self, every: int, middle: FloatArray) -> None:
+        self.every, self.middle = every, middle
+        self.kept: list[Snapshot] = []
+
+    def note(self, iteration: int, curve: BSplineCurve) -> None:
+        """Keep the curve of an iteration, if it is its turn."""
+        if self.every and iteration % self.every == 0:
+            points = curve.control_points + self.middle
+            moved = BSplineCurve(curve.knots, points, curve.degree, curve.periodic)
+            self.kept.append(Snapshot(iteration, moved))
+
+    def finished(self, iteration: int, curve: BSplineCurve) -> tuple[Snapshot, ...]:
+        """The curves, the last one of the run among them."""
+        if self.every and (not self.kept or self.kept[-1].iteration < iteration):
+            self.kept.append(Snapshot(iteration, curve))
+        return tuple(self.kept)
+
+
+class KnotMethod(Protocol):
+    """A method that moves knots as well, and runs itself."""
+
+    def run(self, contour: Contour, start: Start, arguments: RunArguments) -> Minimized:
+        """The curve that it ends with."""
 
 
 def minimized(
     contour: Contour,
     start: Start,
-    solver: Solver[Any, Any],
+    solver: Solver[Any, Any] | KnotMethod,
     *,
     tolerance: float | None = None,
     weights: FloatArray | None = None,
@@ -75,14 +107,66 @@ def minimized(
     stray_weight: float = 0.0,
     limits: Limits = DEFAULT_LIMITS,
     callback: Callback | None = None,
+    snapshots: int = 0,
     ask: Callable[[int], bool] = go_on,
 ) -> Minimized:
-    """The curve of a start's knots that a solver ends with; arguments as `optimize` takes them.
+    """The curve that a solver ends with; arguments as `optimize` takes them.
 
     ``weights`` (n,) are those of the contour's points. The data are moved about their middle while
     computing, so that their place costs no accuracy.
     """
-    spline = start.spline
+    arguments = RunArguments(
+        tolerance=tolerance,
+        weights=weights,
+        ends=ends,
+        stray_weight=stray_weight,
+        limits=limits,
+        callback=callback,
+        snapshots=snapshots,
+    )
+    return run_solver(contour, start, solver, arguments, ask)
+
+
+def run_solver(
+    contour: Contour,
+    start: Start,
+    solver: Solver[Any, Any] | KnotMethod,
+    arguments: RunArguments,
+    ask: Callable[[int], bool] = go_on,
+) -> Minimized:
+    """What `minimized` does, with its arguments in one."""
+    run_itself = getattr(solver, "run", None)
+    if run_itself is not None:
+        found: Minimized = run_itself(contour, start, arguments)
+        return found
+    problem, x, middle = prepared_problem(contour, start, arguments)
+    limits, callback, snapshots = arguments.limits, arguments.callback, arguments.snapshots
+    if arguments.tolerance is not None:
+        limits = _stopping_at(limits, arguments.tolerance, problem, contour.closed)
+    n, album = len(contour), Album(snapshots, middle)
+
+    def observe(record: Iteration, x: FloatArray) -> None:
+        album.note(record.iteration, problem.curve(x))
+
+    result = descend(
+        cast("Solver[Any, Any]", solver),
+        problem,
+        x,
+        limits=limits,
+        callback=None if callback is None else lambda record: callback(with_paper_error(record, n)),
+        observer=observe if snapshots else None,
+        ask=ask,
+    )
+    curve = finished_curve(problem, result.x, middle, contour)
+    history = tuple(with_paper_error(record, n) for record in result.history)
+    return Minimized(curve, result, history, album.finished(len(history) - 1, curve))
+
+
+def prepared_problem(
+    contour: Contour, start: Start, arguments: RunArguments
+) -> tuple[CurveProblem, FloatArray, FloatArray]:
+    """The problem about the middle of the data, the vector to start from, and that middle."""
+    spline, ends = start.spline, arguments.ends
     if spline.periodic and not contour.closed:
         raise InvalidInputError(
             "start must be an open curve for an open contour, got a periodic one;"
@@ -92,41 +176,27 @@ def minimized(
         ends = "free" if spline.periodic else "interpolated"
     middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
     problem = CurveProblem(
-        contour.points - middle, spline, weights, ends=ends, stray_weight=stray_weight
+        contour.points - middle,
+        spline,
+        arguments.weights,
+        ends=ends,
+        stray_weight=arguments.stray_weight,
     )
-    if tolerance is not None:
-        limits = _stopping_at(limits, tolerance, problem, contour.closed)
-    n = len(contour)
     first = spline.control_points - middle
     if ends == "interpolated":
         first[[0, -1]] = problem.points[[0, -1]]
-    result = descend(
-        solver,
-        problem,
-        problem.pack(first, parameters_in_order(start, contour)),
-        limits=limits,
-        callback=None if callback is None else lambda record: callback(with_paper_error(record, n)),
-        ask=ask,
-    )
-    fitted = problem.curve(result.x)
+    return problem, problem.pack(first, parameters_in_order(start, contour)), middle
+
+
+def finished_curve(
+    problem: CurveProblem, x: FloatArray, middle: FloatArray, contour: Contour
+) -> BSplineCurve:
+    """The curve of a vector, back where the data are."""
+    fitted = problem.curve(x)
     control_points = fitted.control_points + middle
-    if ends == "interpolated":  # to the bit, in spite of the way to the middle and back
+    if problem.ends == "interpolated":  # to the bit, in spite of the way to the middle and back
         control_points[[0, -1]] = contour.points[[0, -1]]
-    curve = type(fitted)(fitted.knots, control_points, fitted.degree, fitted.periodic)
-    return Minimized(curve, result, tuple(with_paper_error(record, n) for record in result.history))
-
-
-def named_solver(method: str | Solver[Any, Any]) -> tuple[Solver[Any, Any], str]:
-    """The solver of a method's name, or one that was made by hand; and its name."""
-    if isinstance(method, LevenbergMarquardt | QuasiNewton | Alternation | FixedParameters):
-        return method, type(method).__name__
-    if method not in METHODS:
-        raise InvalidInputError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
-    if method == "levenberg-marquardt":
-        return LevenbergMarquardt(), method
-    if method in COMPARISONS:
-        return COMPARISONS[method], method
-    return make_solver(method), method
+    return type(fitted)(fitted.knots, control_points, fitted.degree, fitted.periodic)
 
 
 def summed_weights(weights: ArrayLike, contour: Contour) -> FloatArray:

@@ -160,7 +160,7 @@ def chunk_equations(
     problem = CurveProblem(moved, spline)
     parameters = np.interp(np.arange(begin, begin + len(points)), *known)
     first, last = parameters[0], parameters[-1]
-    near = problem.projected(problem.pack(spline.control_points, parameters))
+    near = problem.projected_nearby(problem.pack(spline.control_points, parameters))
     parameters = nondecreasing(problem.unpack(near)[1])
     if not spline.periodic:  # ends of the data stay ends of the curve
         low, high = spline.domain

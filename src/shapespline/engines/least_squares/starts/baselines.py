@@ -1,7 +1,7 @@
-"""Knots for comparison: at dominant points, and equally spaced for equally spaced parameters.
+"""Starts for comparison that solve for their control points at parameters that stay.
 
-Both hold the parameters while they place the knots; fits of a given size start from error
-equidistribution otherwise.
+Knots at dominant points (Park and Lee), with seeds from the data or from a base curve, and equally
+spaced knots for equally spaced parameters.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.analysis import chord_to_point
+from shapespline.analysis import chord_to_point, local_maxima
 from shapespline.engines.least_squares.problem import CurveProblem
 from shapespline.engines.least_squares.starts.equidistribution import Balanced
 from shapespline.errors import DegenerateContourError
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 # CPDA chord in points, at most this part of the outline, for the curvature along it.
 CHORD, CHORD_PART = 8, 8
+# Points to a knot of Park and Lee's base curve, and the part of its mean curvature that a seed
+# exceeds.
+BASE_POINTS, LOW_CURVATURE = 4, 0.25
 # Part of the bending against the length in the shape index of a segment [1].
 BEND_PART = 0.8
 
@@ -41,9 +44,9 @@ def dominant_start(
 ) -> Balanced:
     """Knots that average the parameters of dominant points, one for every control point.
 
-    The sharpest bends come first, at most half of them; then, fit by fit, the segment between two
-    dominant points that errs most gets another where it halves the segment's shape index, a mean of
-    bending and length.
+    The sharpest bends of the data come first, where H is largest, at most half of them; then, fit
+    by fit, the segment between two dominant points that errs most gets another where it halves the
+    segment's shape index, a mean of bending and length.
 
     Raises
     ------
@@ -56,11 +59,47 @@ def dominant_start(
        dominant points, Computer-Aided Design 39, 2007: sections 3.1 (seeds), 3.2 (knots by
        averaging), 3.3 (refinement by the shape index).
     """
-    parameters = parametrize(contour, "chord")
     length = max(2, min(CHORD, len(contour) // CHORD_PART))
     bend = chord_to_point(contour, length, prominence=0.05)
-    index = _shape_index(contour, bend.values)
-    chosen = _seeds(contour, bend.maxima, bend.values, n_control_points, degree)
+    seeds = _seeds(contour, bend.maxima, bend.values, n_control_points // 2, degree)
+    return _dominant(contour, seeds, bend.values, n_control_points, degree, weights)
+
+
+def park_lee_start(
+    contour: Contour, n_control_points: int, degree: int, weights: FloatArray | None = None
+) -> Balanced:
+    """The same with the seeds of the reference: maxima of the curvature of a base curve.
+
+    The base curve is the least-squares curve on uniform knots at chord length, with a knot for
+    every four points; its curvature at a data point counts where it exceeds that at both neighbours
+    and a quarter of the mean.
+
+    References
+    ----------
+    .. [1] As for `dominant_start`, section 3.1.
+    """
+    parameters = parametrize(contour, "chord")
+    count = max(degree + 1, len(contour) // BASE_POINTS)
+    make = periodic_knots if contour.closed else clamped_knots
+    base = _fitted(contour, parameters, make(count, degree), degree, weights)
+    bend = np.abs(base.spline.curvature(parameters))
+    low = LOW_CURVATURE * float(bend.mean())
+    maxima = local_maxima(bend, closed=contour.closed)
+    seeds = _seeds(contour, maxima[bend[maxima] > low], bend, n_control_points, degree)
+    return _dominant(contour, seeds, bend, n_control_points, degree, weights)
+
+
+def _dominant(
+    contour: Contour,
+    chosen: list[int],
+    bend: FloatArray,
+    n_control_points: int,
+    degree: int,
+    weights: FloatArray | None,
+) -> Balanced:
+    """The curve whose knots average dominant points, refined from the seeds to a number."""
+    parameters = parametrize(contour, "chord")
+    index = _shape_index(contour, bend)
     while True:
         knots, shift = _averaged(contour, parameters[chosen], degree)
         start = _fitted(contour, parameters - shift, knots, degree, weights)
@@ -76,7 +115,7 @@ def _seeds(
     n = len(contour)
     sharpest = maxima[np.argsort(-values[maxima], kind="stable")]
     chosen = set() if contour.closed else {0, n - 1}
-    chosen |= set(sharpest[: max(0, count // 2 - len(chosen))].tolist())
+    chosen |= set(sharpest[: max(0, count - len(chosen))].tolist())
     for i in np.linspace(0, n - 1, 4 * (degree + 1)).astype(int).tolist():
         if len(chosen) < degree + 1:
             chosen.add(i)

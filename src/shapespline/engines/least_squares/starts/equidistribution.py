@@ -43,7 +43,7 @@ STRAY_WEIGHT = 0.1
 
 
 class Balanced(NamedTuple):
-    """A curve on uniform knots and the parameters (n,) that balance it."""
+    """A curve to start from and the parameters (n,) of the points along it."""
 
     spline: BSplineCurve
     parameters: FloatArray
