@@ -172,7 +172,7 @@ def lawson_rounds() -> None:
     weights, solver, rounds = np.ones(len(points)), LevenbergMarquardt(), []
     guess = template.control_points
     for _ in range(10):
-        problem = CurveProblem(points, template, weights, ends="interpolated")
+        problem = CurveProblem(points, template, weights, ends="fixed")
         start = problem.control_points_for(parameters, guess)
         run = minimize(
             solver, problem, problem.pack(start, parameters), limits=Limits(max_iterations=60)

@@ -247,7 +247,7 @@ def _finished(
     monitor: Monitor,
 ) -> Minimized:
     """Least squares to the end from a start whose size was chosen; free ends leave their noise."""
-    ends = "interpolated" if problem.request.constraints.ends else "fitted"
+    ends = "fixed" if problem.request.constraints.ends else "fitted"
     return minimized(
         contour,
         start,

@@ -71,7 +71,7 @@ def optimize(
         Stop as soon as no residual is longer, data units; the promise is then checked both ways.
     weights : array_like, shape (n_given,), optional
         One positive weight per point that was given.
-    ends : {"interpolated", "fitted", "free"}, optional
+    ends : {"fixed", "fitted", "free"}, optional
         Of an open curve: held on the first and last point, held by their parameters only, or not
         held at all.
     stray_weight : float, optional
@@ -125,7 +125,7 @@ def optimize(
         model = model.again()
     if ends is None and not start.spline.periodic:
         # Points with errors are no places to pass through.
-        ends = "fitted" if sigma is not None and settings.ends == "interpolated" else settings.ends
+        ends = "fitted" if sigma is not None and settings.ends == "fixed" else settings.ends
     arguments = RunArguments(
         tolerance=tolerance,
         weights=None if weights is None else _weights_of(data, weights, contour),

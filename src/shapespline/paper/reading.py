@@ -76,7 +76,7 @@ class Reading:
         What a quasi-Newton method takes for the Hessian at first.
     wolfe : {"strong", "weak"}
         Its line search.
-    ends : {"interpolated", "fitted", "free"}
+    ends : {"fixed", "fitted", "free"}
         Whether the ends of a clamped curve are held.
     stray_weight : float
         Weight of the residuals that hold the curve on the data between the points.
@@ -105,7 +105,7 @@ class Reading:
     method: str = "d-bfgs"
     start_diagonal: StartDiagonal = "gauss-newton"
     wolfe: Wolfe = "strong"
-    ends: Literal["interpolated", "fitted", "free"] = "interpolated"
+    ends: Literal["fixed", "fitted", "free"] = "fixed"
     stray_weight: float = 0.1
     relative_decrease: float = 1e-6
     max_evaluations: int = 4000

@@ -189,7 +189,7 @@ def test_bad_arguments():
     with pytest.raises(InvalidInputError, match="ends must be one of"):
         optimize(contour, start, ends="loose")
     with pytest.raises(InvalidInputError, match="ends must be 'free' for a periodic curve"):
-        optimize(contour, start, ends="interpolated")
+        optimize(contour, start, ends="fixed")
     for bad in (-0.1, np.nan, np.inf):
         with pytest.raises(InvalidInputError, match="stray_weight"):
             optimize(contour, start, stray_weight=bad)

@@ -226,18 +226,18 @@ def test_the_callback_sees_every_iteration_and_cancels(method):
 # --- ends --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("ends", ["interpolated", "fitted", "free"])
+@pytest.mark.parametrize("ends", ["fixed", "fitted", "free"])
 def test_ends(ends):
     rng = np.random.default_rng(3)
     contour = Contour(wave(150).points + rng.normal(0, 0.1, (150, 2)), False)
     fit = optimize(contour, plain_start(contour, length=12), ends=ends, limits=SHORT)
     gaps = np.hypot(*(fit.control_points[[0, -1]] - contour.points[[0, -1]]).T)
-    if ends == "interpolated":
+    if ends == "fixed":
         assert gaps.max() <= 4 * EPS * 20  # moved to the middle of the data and back
     else:
         assert (gaps > 1e-6).all()
     assert_honest(fit, contour)
-    if ends == "interpolated":
+    if ends == "fixed":
         default = optimize(contour, plain_start(contour, length=12), limits=SHORT)
         assert_array_equal(default.control_points, fit.control_points)
 
@@ -247,8 +247,7 @@ def test_fitted_ends_cost_less_than_interpolated_and_free_ones_least():
     contour = Contour(wave(150).points + rng.normal(0, 0.1, (150, 2)), False)
     start = plain_start(contour, length=12)
     costs = [
-        optimize(contour, start, ends=ends).history[-1].cost
-        for ends in ("interpolated", "fitted", "free")
+        optimize(contour, start, ends=ends).history[-1].cost for ends in ("fixed", "fitted", "free")
     ]
     assert costs[0] > costs[1] > costs[2]
 

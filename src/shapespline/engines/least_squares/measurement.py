@@ -178,7 +178,7 @@ def _check_size(
 ) -> None:
     """Raise if there are no points left to tell the errors from the curve."""
     free = 2 * spline.n_control_points
-    if not spline.periodic and ends in (None, "interpolated"):
+    if not spline.periodic and ends in (None, "fixed"):
         free -= 4
     if model.covariances is not None and len(contour) <= free:
         raise InvalidInputError(
@@ -253,7 +253,7 @@ def _uncertainty(
     bread = _information(motion.gains, motion.columns, slope * precision, count)
     meat = _information(motion.gains, motion.columns, square * precision, count)
     n, chi_squared, free = len(contour), float(z @ z), np.arange(2 * count)
-    if not spline.periodic and ends in (None, "interpolated"):
+    if not spline.periodic and ends in (None, "fixed"):
         free = free[2:-2]
     elif not spline.periodic and ends == "fitted":  # end parameters are held: both axes count
         tangents = np.column_stack([normals[:, 1], -normals[:, 0]])[[0, -1]]

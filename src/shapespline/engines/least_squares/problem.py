@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 # Entries of the Gauss-Newton diagonal below this part of the largest are raised to it (LSQ-03).
 DIAGONAL_FLOOR = 1e-12
-ENDS = ("interpolated", "fitted", "free")
+ENDS = ("fixed", "fitted", "free")
 # Newton steps towards a foot point nearby.
 _FOOT_STEPS = 3
 # Relative damping for control points that no data hold; the others do not notice.
@@ -45,9 +45,9 @@ class CurveProblem:
         Gives knots, degree and number of control points; its control points are the start.
     weights : ndarray, shape (n,), optional
         One positive weight per point.
-    ends : {"interpolated", "fitted", "free"}
+    ends : {"fixed", "fitted", "free"}
         Of an open curve. The paper leaves everything free; then the ends may fly. "fitted" holds
-        the first and last parameter, "interpolated" the first and last control point as well.
+        the first and last parameter, "fixed" the first and last control point as well.
     stray_weight : float
         Weight, relative to that of a data point, of residuals that hold the curve to the data
         polyline where neighbours lie far apart on it; 0 is the plain problem.
@@ -86,7 +86,7 @@ class CurveProblem:
         self._split = 2 * template.n_control_points
         held = 0 if ends == "free" else _HOLD_ENDS
         self.kernel = _kernels.LeastSquares(
-            *self._knots, points, weights, held, ends == "interpolated", stray_weight
+            *self._knots, points, weights, held, ends == "fixed", stray_weight
         )
 
     def on(self, template: BSplineCurve) -> CurveProblem:
@@ -261,7 +261,7 @@ class CurveProblem:
         """
         control_points, unused = np.empty_like(guess), np.empty_like(parameters)
         held = _kernels.LeastSquares(
-            *self._knots, self.points, self.weights, _HOLD_ALL, self.ends == "interpolated"
+            *self._knots, self.points, self.weights, _HOLD_ALL, self.ends == "fixed"
         )
         solved, *_ = held.damped_step(guess, parameters, 1e-9, control_points, unused)
         return guess + control_points if solved else guess

@@ -27,7 +27,7 @@ class RunSettings:
     method : str
     start_diagonal, wolfe : str
         Of a quasi-Newton method; see `solvers.make_solver`.
-    ends : {"interpolated", "fitted", "free"}
+    ends : {"fixed", "fitted", "free"}
         Of a clamped curve.
     stray_weight : float
         See `CurveProblem`.
@@ -39,7 +39,7 @@ class RunSettings:
     method: str = "levenberg-marquardt"
     start_diagonal: StartDiagonal = "gauss-newton"
     wolfe: Wolfe = "strong"
-    ends: str = "interpolated"
+    ends: str = "fixed"
     stray_weight: float = 0.0
     closing_point: bool = False
     limits: Limits = DEFAULT_LIMITS

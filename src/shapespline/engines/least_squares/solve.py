@@ -173,7 +173,7 @@ def prepared_problem(
             " make it from the same contour"
         )
     if ends is None:
-        ends = "free" if spline.periodic else "interpolated"
+        ends = "free" if spline.periodic else "fixed"
     middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
     problem = CurveProblem(
         contour.points - middle,
@@ -183,7 +183,7 @@ def prepared_problem(
         stray_weight=arguments.stray_weight,
     )
     first = spline.control_points - middle
-    if ends == "interpolated":
+    if ends == "fixed":
         first[[0, -1]] = problem.points[[0, -1]]
     return problem, problem.pack(first, parameters_in_order(start, contour)), middle
 
@@ -194,7 +194,7 @@ def finished_curve(
     """The curve of a vector, back where the data are."""
     fitted = problem.curve(x)
     control_points = fitted.control_points + middle
-    if problem.ends == "interpolated":  # to the bit, in spite of the way to the middle and back
+    if problem.ends == "fixed":  # to the bit, in spite of the way to the middle and back
         control_points[[0, -1]] = contour.points[[0, -1]]
     return type(fitted)(fitted.knots, control_points, fitted.degree, fitted.periodic)
 

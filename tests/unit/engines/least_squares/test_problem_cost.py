@@ -71,14 +71,14 @@ def test_the_gradient_is_the_difference_quotient_of_the_cost(degree, periodic):
     assert (np.abs(gradient - fine) <= np.abs(coarse - fine) + rounding + kernel).all()
 
 
-@pytest.mark.parametrize("ends", ["interpolated", "fitted", "free"])
+@pytest.mark.parametrize("ends", ["fixed", "fitted", "free"])
 def test_what_is_held_has_no_gradient(ends):
     case = Case(3, False)
     free = case.problem().cost_and_gradient(case.x())[1]
     problem = case.problem(ends=ends)
     of_points, of_parameters = problem.unpack(problem.cost_and_gradient(case.x())[1])
     free_points, free_parameters = problem.unpack(free.copy())
-    if ends == "interpolated":
+    if ends == "fixed":
         free_points[[0, -1]] = 0
     if ends != "free":
         free_parameters[[0, -1]] = 0
@@ -149,7 +149,7 @@ def test_dense_data_have_no_stray_residuals():
 @pytest.mark.slow
 def test_the_gradient_of_the_stray_residuals_is_their_difference_quotient(degree, periodic, held):
     case = Case(degree, periodic, n=9, multiple=False)
-    ends = "interpolated" if held and not periodic else "free"
+    ends = "fixed" if held and not periodic else "free"
     problem, x = case.problem(stray_weight=0.3, ends=ends), case.x()
     cost, gradient = problem.cost_and_gradient(x)
     assert abs(cost - problem.cost(x)) <= 200 * EPS * cost
@@ -172,7 +172,7 @@ def test_the_gradient_of_the_stray_residuals_is_their_difference_quotient(degree
     fine = reference.central_difference(exact_cost, x, 5e-7)
     rounding = 500 * float(np.finfo(np.longdouble).eps) * cost / 5e-7
     kernel = 2000 * degree * EPS * np.abs(fine).max()
-    if ends == "interpolated":
+    if ends == "fixed":
         moves = np.ones(len(x), dtype=bool)
         moves[[0, 1, 2 * case.m - 2, 2 * case.m - 1, 2 * case.m, -1]] = False
         assert_array_equal(gradient[~moves], 0)
@@ -198,7 +198,7 @@ def test_pack_and_unpack():
 
 def test_bad_ends():
     case = Case(3, False)
-    with pytest.raises(InvalidInputError, match="ends must be one of interpolated, fitted, free, "):
+    with pytest.raises(InvalidInputError, match="ends must be one of fixed, fitted, free, "):
         case.problem(ends="loose")
     with pytest.raises(InvalidInputError, match="ends must be 'free' for a periodic curve"):
         Case(3, True).problem(ends="fitted")

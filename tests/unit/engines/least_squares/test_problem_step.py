@@ -239,7 +239,7 @@ def test_the_trial_parameters_are_in_data_order():
     for periodic in (False, True):
         case = Case(3, periodic, n=200, noise=4.0)
         x = case.x()
-        problem = case.problem(ends="free" if periodic else "interpolated")
+        problem = case.problem(ends="free" if periodic else "fixed")
         for damping in (1e-4, 1e-2, 1):
             trial = problem.damped_step(x, damping)
             u = problem.unpack(trial.x)[1]

@@ -158,7 +158,7 @@ def _fitted(
     count = len(knots) - degree - 1 - (degree if periodic else 0)
     middle = contour.points.mean(axis=0)
     template = BSplineCurve(knots, np.zeros((count, 2)), degree, periodic)
-    ends = "free" if periodic else "interpolated"
+    ends = "free" if periodic else "fixed"
     problem = CurveProblem(contour.points - middle, template, weights, ends=ends)
     guess = np.zeros((count, 2))
     if not periodic:

@@ -56,7 +56,7 @@ def balanced_start(
     weights: FloatArray | None = None,
     rounds: int = ROUNDS,
     *,
-    ends: str = "interpolated",
+    ends: str = "fixed",
     ask: Callable[[int], bool] = go_on,
 ) -> Balanced:
     """The best of a few short fits, each balanced by the errors of the one before.
@@ -71,7 +71,7 @@ def balanced_start(
     weights : ndarray, shape (n,), optional
     rounds : int
         Times that the parameters are spread again.
-    ends : {"interpolated", "fitted"}
+    ends : {"fixed", "fitted"}
         Of an open contour; see `CurveProblem`.
     ask : callable
         Asked now and then whether to end with what there is, see `descend`.
