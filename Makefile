@@ -46,6 +46,7 @@ paper: $(READY)
 figures: $(READY)
 	$(BIN)/python -m benchmarks.readme_figures
 	$(BIN)/python -m benchmarks.howto_figures
+	$(BIN)/python -m benchmarks.picture_options
 	$(BIN)/python -m benchmarks.engine_figures
 	$(BIN)/python scripts/rooms_picture.py
 

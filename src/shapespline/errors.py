@@ -44,6 +44,10 @@ class SkippedContentWarning(UserWarning):
     """Parts of a file that are no outlines were left out."""
 
 
+class PictureWarning(UserWarning):
+    """What a picture was taken for, where it could be otherwise, and the option that says so."""
+
+
 class ShuffledPointsWarning(UserWarning):
     """Points are hardly in the order of an outline."""
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 FloatArray: TypeAlias = NDArray[np.float64]
 IntArray: TypeAlias = NDArray[np.int64]
+BoolArray: TypeAlias = NDArray[np.bool_]
 
 # How a curve within a tolerance is made, and how long it is searched for.
 Form: TypeAlias = Literal["pieces", "spline"]
@@ -33,6 +34,7 @@ Knots: TypeAlias = Literal[
 
 __all__ = [
     "ArrayLike",
+    "BoolArray",
     "CornerChoice",
     "Effort",
     "Ends",

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from shapespline.errors import DegenerateContourError, FormatError, ShapesplineError
+from shapespline.errors import DegenerateContourError, FormatError, PictureWarning, ShapesplineError
 from shapespline.formats import image as image_format
 from shapespline.formats.registry import read
 from shapespline.values.view_box import ViewBox
@@ -203,7 +203,9 @@ def test_bombs_are_refused_before_decoding(tmp_path, side):
 def test_other_content_is_refused(tmp_path):
     path = tmp_path / "notes.png"
     path.write_text("x,y\n1,2\n")
-    with pytest.raises(FormatError, match=r"notes\.png: not a PNG, JPEG, TIFF or BMP picture"):
+    with pytest.raises(
+        FormatError, match=r"notes\.png: not a PNG, JPEG, TIFF, BMP, WebP or GIF picture"
+    ):
         read(path)
     # Formats that Pillow knows and nobody asked for: PostScript would start an interpreter.
     path.write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 10 10\n%%EndComments\n")
@@ -234,5 +236,25 @@ def test_no_damage_escapes_as_another_error(tmp_path_factory, data):
     path = tmp_path_factory.mktemp("damage") / "damaged.png"
     path.write_bytes(content)
     limited = mock.patch.object(image_format, "LARGEST_IMAGE", 1_000_000)
-    with limited, contextlib.suppress(ShapesplineError):
+    with limited, contextlib.suppress(ShapesplineError, PictureWarning):
         read(path)
+
+
+@pytest.mark.parametrize("kind", ["WEBP", "GIF"])
+def test_more_kinds_of_pictures(tmp_path, kind):
+    path = tmp_path / f"bytes.{kind.lower()}"
+    options = {"lossless": True} if kind == "WEBP" else {}
+    Image.fromarray(BYTES).save(path, kind, **options)
+    assert len(read(path)) >= 1
+
+
+def test_of_several_frames_the_first_is_taken_and_told(tmp_path):
+    frames = [Image.new("L", (30, 30), 255) for _ in range(3)]
+    for index, frame in enumerate(frames):
+        frame.paste(0, (5 * index + 2, 10, 5 * index + 12, 20))
+    for name in ("frames.gif", "pages.tif"):
+        path = tmp_path / name
+        frames[0].save(path, save_all=True, append_images=frames[1:])
+        with pytest.warns(PictureWarning, match="3 frames or pages: the first one"):
+            shape = read(path)
+        assert shape.longest.points.mean(axis=0) == pytest.approx([7, 15])

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+import typer
 
 import shapespline as ss
 from shapespline.cli import options
@@ -20,10 +22,16 @@ class TraceFile:
 
     reading: options.Reading
     writing: options.Writing
+    left_out: bool
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
         shape = self.reading.outlines(source)
+        n_left_out = len(shape.left_out)
+        if self.left_out:
+            if not shape.left_out:
+                raise ss.InvalidInputError(f"nothing was left out of {source}: nothing to write")
+            shape = ss.Shape(shape.left_out, frame=shape.frame, unit=shape.unit)
         ss.write(target, shape, **self.writing.given())
         n_points = sum(len(contour) for contour in shape)
         outlines = "1 outline" if len(shape) == 1 else f"{len(shape)} outlines"
@@ -32,6 +40,7 @@ class TraceFile:
             text=f"{target}: {outlines}, {n_points} points",
             record={
                 "output": str(target),
+                "left_out": n_left_out,
                 "outlines": [
                     {"closed": contour.closed, "points": len(contour)} for contour in shape
                 ],
@@ -75,12 +84,16 @@ def trace(
     as_json: options.AsJson = False,
     stdin_format: options.StdinFormat = "png",
     *,
+    left_out: Annotated[
+        bool,
+        typer.Option("--left-out", help="Write what was left out as noise, not what was kept."),
+    ] = False,
     reading: options.Reading,
     writing: options.Writing,
 ) -> None:
     """Write the outlines of pictures, or of other files, as polylines: nothing is fitted."""
     run_files(
-        lambda _: TraceFile(reading, writing),
+        lambda _: TraceFile(reading, writing, left_out),
         Batch(
             sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
         ),

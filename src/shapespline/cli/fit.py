@@ -30,6 +30,11 @@ WANTED = {"tolerance", "n_control_points"}
 IN_PASSES = WANTED | {"degree", "corners", "form", "effort", "time_limit"}
 
 
+# Areas of colours are fitted within so many times their accuracy if no tolerance is given: their
+# borders are fitted once for two areas, which estimation from one outline cannot do.
+AREA_TOLERANCE = 10.0
+
+
 @dataclass(frozen=True)
 class FitFile:
     """Read, fit, write and draw one file; sent to other processes as it is."""
@@ -47,9 +52,14 @@ class FitFile:
         if large is None:
             shape = self.reading.outlines(source, self.settings.tolerance)
             began = time.perf_counter()
-            drawing = ss.fit_shape(
-                shape, shared_boundaries=self.shared_boundaries, **self.settings.to_dict()
-            )
+            asked = self.settings.to_dict()
+            shared = self.shared_boundaries
+            if any(shape.colors):
+                shared = True
+                accuracy = shape.longest.accuracy
+                if not asked.keys() & WANTED and accuracy:
+                    asked["tolerance"] = AREA_TOLERANCE * accuracy
+            drawing = ss.fit_shape(shape, shared_boundaries=shared, **asked)
         else:
             began = time.perf_counter()
             drawing = self.fitted_in_passes(large)

@@ -85,6 +85,30 @@ class Reading:
             " pixel."
         ),
     ] = None
+    invert: Annotated[
+        bool, typer.Option("--invert", help="Of a picture: the ground is the shape.")
+    ] = False
+    local: Annotated[
+        str,
+        typer.Option(
+            help="Whether the level follows uneven light: auto, off, or a window in pixels."
+        ),
+    ] = "auto"
+    blur: Annotated[
+        float | None,
+        typer.Option(help="Blur a picture before it is cut, pixels (for grain and screens)."),
+    ] = None
+    crop: Annotated[
+        str | None,
+        typer.Option(help="The part of a picture to look at: column,row,width,height."),
+    ] = None
+    colors: Annotated[
+        str | None,
+        typer.Option(
+            help="Areas of so many colours of a picture, or auto, instead of ink; neighbours share"
+            " their borders."
+        ),
+    ] = None
     centerline: Annotated[
         bool, typer.Option("--centerline", help="Centre lines of strokes, not their outlines.")
     ] = False
@@ -129,7 +153,7 @@ class Reading:
         if isinstance(shape, ss.Shape):
             return shape
         contours = [fit.contour for fit in shape]
-        return ss.Shape(contours, shape.parents, shape.frame, shape.unit)
+        return ss.Shape(contours, shape.parents, shape.frame, shape.unit, colors=shape.colors)
 
 
 @dataclass(frozen=True)

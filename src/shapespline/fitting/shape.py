@@ -101,7 +101,8 @@ def fit_shape(
         time_limit=time_limit,
     )
     request = DrawingRequest.of(shape, settings, shared_boundaries)
-    return Drawing(_solved(request, callback), shape.parents, shape.frame, shape.unit)
+    fits = _solved(request, callback)
+    return Drawing(fits, shape.parents, shape.frame, shape.unit, colors=shape.colors)
 
 
 @dataclass(frozen=True, eq=False)

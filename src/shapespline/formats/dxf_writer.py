@@ -21,6 +21,7 @@ from shapespline.values import Piece
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from ezdxf.document import Drawing as Document
     from ezdxf.layouts import Modelspace
 
     from shapespline.values import BSplineCurve, Drawing, Fit
@@ -43,7 +44,7 @@ def encode(
     arcs: bool = False,
     arc_tolerance: float | None = None,
 ) -> bytes:
-    """Text of a DXF file, release 2000.
+    """Text of a DXF file, release 2000; areas of a colour lie on a layer color_rrggbb.
 
     Parameters
     ----------
@@ -83,16 +84,36 @@ def encode(
     with _without_time_and_chance():
         document = ezdxf.new("R2000", units=UNITS.get(drawing.unit or "", 0))
         space = document.modelspace()
-        for fit in drawing:
+        for index, fit in enumerate(drawing):
+            before = len(space)
             if arcs:
                 _add_arcs(space, fit, arc_tolerance)
             else:
                 _add_splines(space, fit, degree)
+            # A hole is on the layer of the area that it is a hole in.
+            color = drawing.colors[index] or drawing.colors[drawing.parents[index]]
+            if color is not None and (drawing.colors[index] or drawing.parents[index] >= 0):
+                layer = _layer(document, color)
+                for number in range(before, len(space)):
+                    space[number].dxf.layer = layer
         points = np.concatenate([fit.contour.points for fit in drawing])
         document.header["$EXTMIN"] = (*points.min(axis=0).tolist(), 0.0)
         document.header["$EXTMAX"] = (*points.max(axis=0).tolist(), 0.0)
         document.write(text)
     return text.getvalue().encode(document.output_encoding, errors="dxfreplace")
+
+
+def _layer(document: Document, color: str) -> str:
+    """The name of the layer of a colour, made if it is not there, in the nearest of 255 colours."""
+    from ezdxf.colors import DXF_DEFAULT_COLORS, int2rgb
+
+    name = f"color_{color[1:]}"
+    if name not in document.layers:
+        wanted = [int(color[k : k + 2], 16) for k in (1, 3, 5)]
+        table = np.array([int2rgb(value)[:3] for value in DXF_DEFAULT_COLORS[1:256]], dtype=float)
+        nearest = int(np.argmin(((table - wanted) ** 2).sum(axis=1))) + 1
+        document.layers.add(name, color=nearest)
+    return name
 
 
 @contextmanager

@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
+import contextlib
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
-from shapespline.errors import FormatError
-from shapespline.tracing import centerlines, trace_image
+from shapespline.errors import FormatError, InvalidInputError, PictureWarning
+from shapespline.tracing import centerlines, trace_colors, trace_image
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from shapespline.tracing import Channel, Polarity, Selection
+    from shapespline.tracing import Channel, Local, Polarity, Selection
     from shapespline.values import Shape
 
 # Told by content, not by ending. Pillow knows more, among them formats that start programs.
-CONTENTS = ("PNG", "JPEG", "TIFF", "BMP")
-# Pixels. Tracing holds about 60 bytes for each; Pillow's own limit is a little above this one.
+CONTENTS = ("PNG", "JPEG", "TIFF", "BMP", "WEBP", "GIF")
+# Pixels. Tracing holds about 10 bytes for each; Pillow's own limit is a little above this one.
 LARGEST_IMAGE = 80_000_000
 
 
@@ -34,16 +36,25 @@ def read(
     color: str | None = None,
     contours: Selection = "all",
     min_area: float | None = None,
+    invert: bool = False,
+    local: Local | str = "auto",
+    blur: float | None = None,
+    crop: str | Sequence[int] | None = None,
+    colors: int | str | None = None,
     centerline: bool = False,
 ) -> Shape:
-    """Trace the outlines in a PNG, JPEG, TIFF or BMP picture.
+    """Trace the outlines in a PNG, JPEG, TIFF, BMP, WebP or GIF picture.
 
     Parameters
     ----------
     path : Path
-    level, polarity, channel, color, contours, min_area
+    level, polarity, channel, color, contours, min_area, invert, local, blur, crop
         As in :func:`shapespline.trace.trace_image`. The unit of ``level`` is that of the
         picture: 0 to 255, or to 65535 for 16-bit grey.
+    colors : int or "auto", optional
+        Return areas of so many colours that share their borders instead of the outlines of ink;
+        see :func:`shapespline.tracing.trace_colors`. Of the other options min_area, blur and crop
+        act then, the others are refused.
     centerline : bool
         Return the centre lines of strokes instead of the outlines of the ink; see
         :func:`shapespline.centerline.centerlines`.
@@ -60,6 +71,14 @@ def read(
     DegenerateContourError
         If there is no outline in it.
     """
+    if colors is not None:
+        given = (level, polarity, channel, color, contours, invert, local, centerline)
+        if given != (None, "auto", "auto", None, "all", False, "auto", False):
+            raise InvalidInputError(
+                "colors are areas, not ink: give min_area, blur and crop with them, nothing else"
+            )
+        count = int(colors) if str(colors).isdecimal() else colors
+        return trace_colors(load(path), count, min_area=min_area, blur=blur, crop=crop)
     shape = trace_image(
         load(path),
         level=level,
@@ -68,8 +87,19 @@ def read(
         color=color,
         contours=contours,
         min_area=min_area,
+        invert=invert,
+        local=_window(local),
+        blur=blur,
+        crop=crop,
     )
     return centerlines(shape) if centerline else shape
+
+
+def _window(local: Local | str) -> Local:
+    """A window as the command line says it, with a number for a number."""
+    with contextlib.suppress(ValueError):
+        return float(local)
+    return cast("Local", local)
 
 
 def load(path: Path) -> NDArray[Any]:
@@ -90,19 +120,32 @@ def load(path: Path) -> NDArray[Any]:
         try:
             picture = Image.open(file, formats=CONTENTS)
             _check_size(*picture.size)
+            _note_frames(picture)
             return _pixels(_upright(picture))
         except UnidentifiedImageError as error:
             raise FormatError(
-                "not a PNG, JPEG, TIFF or BMP picture, or damaged from the start"
+                "not a PNG, JPEG, TIFF, BMP, WebP or GIF picture, or damaged from the start"
             ) from error
         except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
             raise FormatError(
                 f"the picture has more than {LARGEST_IMAGE // 10**6} megapixels; scale it down"
             ) from error
-        except (FormatError, MemoryError):
+        except (FormatError, MemoryError, PictureWarning):
             raise
         except Exception as error:  # decoders raise whatever damage makes them stumble over
             raise FormatError(f"the picture is damaged or cut off: {error}") from error
+
+
+def _note_frames(picture: Image.Image) -> None:
+    """Tell if there are more frames or pages than the one that is looked at."""
+    count = getattr(picture, "n_frames", 1)
+    if count > 1:
+        warnings.warn(
+            f"the picture has {count} frames or pages: the first one is looked at; save another one"
+            " as a file of its own",
+            PictureWarning,
+            stacklevel=4,
+        )
 
 
 def _check_size(width: int, height: int) -> None:

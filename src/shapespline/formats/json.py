@@ -7,10 +7,11 @@ Version 1 is one object::
     unit     of all lengths, such as "mm", or null
     frame    {x, y, width, height} or null
     parents  for each fit the index of the one directly around it, -1 for none
+    colors   for each fit its colour as #rrggbb or null; not there if no fit has one
     fits     objects with the fields of shapespline.drawing.Fit:
         spline       {degree, periodic, knots, control_points: distinct, as [x, y]}
         contour      {closed, points: as [x, y], source: null if each point stands for itself,
-                     accuracy: null if not known}
+                     accuracy: null if not known, level_line: as [x, y], if there is one}
         parameters   one for each point that was given
         max_distance, rms_distance, hausdorff_distance, tolerance
         status       {name, value}
@@ -70,6 +71,7 @@ DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
 FIT_FIELDS += ("status", "history", "method", "sections", "outliers", "uncertainty")
 DRAWING_FIELDS = ("format", "version", "unit", "frame", "parents", "fits")
+CONTOUR_FIELDS: tuple[str, ...] = ("closed", "points", "source", "accuracy")
 COUNTS = ("iteration", "evaluations")  # the columns of the history that hold integers
 KINDS = ("line", "bezier", "spline")
 KNOWN = (Status.KEPT, Status.EXCEEDED, Status.BUDGET, Status.CANCELLED)
@@ -106,7 +108,7 @@ def encode(drawing: Drawing) -> bytes:
     ' "format": "shapespline",'
     """
     frame = drawing.frame
-    document = {
+    document: dict[str, Any] = {
         "format": FORMAT,
         "version": VERSION,
         "unit": drawing.unit,
@@ -114,6 +116,8 @@ def encode(drawing: Drawing) -> bytes:
         "parents": list(drawing.parents),
         "fits": [_fit_document(fit) for fit in drawing],
     }
+    if any(drawing.colors):
+        document["colors"] = list(drawing.colors)
     return (_laid_out(document, 0) + "\n").encode("ascii")
 
 
@@ -153,6 +157,7 @@ def read(path: Path) -> Drawing:
 
 def _fit_document(fit: Fit) -> dict[str, Any]:
     contour, spline = fit.contour, fit.spline
+    line = contour.level_line
     each_itself = np.array_equal(contour.source, np.arange(len(contour)))
     return {
         "spline": {
@@ -166,6 +171,7 @@ def _fit_document(fit: Fit) -> dict[str, Any]:
             "points": contour.points.tolist(),
             "source": None if each_itself else contour.source.tolist(),
             "accuracy": contour.accuracy,
+            **({} if line is None else {"level_line": line.tolist()}),
         },
         "parameters": _finite(fit.parameters, "parameters"),
         **_numbers_of({name: getattr(fit, name) for name in DISTANCES}, "fit"),
@@ -259,7 +265,8 @@ def _drawing(document: object) -> Drawing:
     version = checked_integer(document.get("version"), "version")
     if version != VERSION:
         raise FormatError(f"version {version} is unknown, this program reads version {VERSION}")
-    fields = checked_object(document, "the drawing", DRAWING_FIELDS)
+    known = DRAWING_FIELDS + (("colors",) if "colors" in document else ())
+    fields = checked_object(document, "the drawing", known)
     items = checked_list(fields["fits"], "fits")
     parents = checked_indices(fields["parents"], "parents", -1, len(items))
     if not items or len(parents) != len(items):
@@ -273,7 +280,13 @@ def _drawing(document: object) -> Drawing:
     if unit is not None and unit not in UNITS:
         raise FormatError(f"unit must be null or one of {', '.join(UNITS)}, found {unit!r}")
     fits = [_fit(item, f"fits[{i}]") for i, item in enumerate(items)]
-    return Drawing(fits, parents, frame, unit)
+    colors = fields.get("colors")
+    if colors is not None:
+        colors = checked_list(colors, "colors")
+    try:
+        return Drawing(fits, parents, frame, unit, colors=colors)
+    except InvalidInputError as error:
+        raise FormatError(str(error)) from error
 
 
 def _fit(value: object, where: str) -> Fit:
@@ -343,16 +356,20 @@ def _sections(value: object, where: str) -> tuple[Piece, ...]:
 
 def _contour(value: object, where: str) -> Contour:
     """Return the contour of the points as they were given, so that ``source`` comes back too."""
-    fields = checked_object(value, where, ("closed", "points", "source", "accuracy"))
+    known = CONTOUR_FIELDS
+    if isinstance(value, dict) and "level_line" in value:
+        known += ("level_line",)
+    fields = checked_object(value, where, known)
     points = checked_points(fields["points"], f"{where}.points")
     source = list(range(len(points)))
     if fields["source"] is not None:
         source = checked_indices(fields["source"], f"{where}.source", 0, len(points))
-    accuracy = fields["accuracy"]
+    accuracy, line = fields["accuracy"], fields.get("level_line")
     contour = Contour.silently(
         points[source],
         checked_boolean(fields["closed"], f"{where}.closed"),
         accuracy=None if accuracy is None else checked_number(accuracy, f"{where}.accuracy"),
+        level_line=None if line is None else checked_points(line, f"{where}.level_line"),
     )
     if contour.source.tolist() != source or len(contour) != len(points):
         raise FormatError(f"{where}: source does not lead to the points, or two neighbours agree")

@@ -30,7 +30,8 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
     drawing : Drawing
         In its unit (pixels at 96 per inch); without one the longer side is that of A4.
     fill : bool
-        Fill closed curves black by the even-odd rule; otherwise they are stroked like open ones.
+        Fill closed curves by the even-odd rule, black if they have no colour of their own;
+        otherwise they are stroked like open ones.
 
     Returns
     -------
@@ -47,6 +48,11 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
     lines = [f"{_number(STROKE * scale * longer)} w 1 j 1 J"]
     for group in groups(drawing):
         filled = fill and drawing.fits[group[0]].closed
+        color = drawing.colors[group[0]]
+        if filled and color is not None:
+            lines.append(
+                " ".join(_number(int(color[k : k + 2], 16) / 255) for k in (1, 3, 5)) + " rg"
+            )
         lines += [
             _path(scale * (cubics[index] - corner), drawing.fits[index].closed) for index in group
         ]

@@ -54,21 +54,25 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
         int(np.ceil(side * longest / longer)) * OVERSAMPLING for side in (high - low).tolist()
     )
     size = (width, height)
-    ink = Image.new("1", size)
+    ink = Image.new("RGB", size, "white")
     for group in groups(drawing):
         filled = fill and drawing.fits[group[0]].closed
+        shape = Image.new("1", size)
         for index in group:
             part = Image.new("1", size)
             points = scale * (lines[index] - low)
             at = [(float(x), float(scale * (high[1] - low[1]) - y)) for x, y in points]
             if filled:
                 ImageDraw.Draw(part).polygon(at, fill=1)
-                ink = ImageChops.logical_xor(ink, part)
+                shape = ImageChops.logical_xor(shape, part)
             else:
                 stroke = max(1, round(STROKE * scale * longer))
                 ImageDraw.Draw(part).line(at, fill=1, width=stroke, joint="curve")
-                ink = ImageChops.logical_or(ink, part)
-    picture = ImageChops.invert(ink.convert("L")).reduce(OVERSAMPLING)
+                shape = ImageChops.logical_or(shape, part)
+        ink.paste(drawing.colors[group[0]] or "black", mask=shape)
+    picture = ink.reduce(OVERSAMPLING)
+    if not any(drawing.colors):
+        picture = picture.convert("L")
     out = io.BytesIO()
     picture.save(out, format="PNG", optimize=True)
     return out.getvalue()

@@ -51,7 +51,12 @@ class Format:
 FORMATS = (
     Format("CSV", (".csv", ".txt", ".dat", ".xy", ".tsv"), "csv", reads=True, writes=True),
     Format("NumPy", (".npy",), "npy", reads=True),
-    Format("image", (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"), "image", reads=True),
+    Format(
+        "image",
+        (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".gif"),
+        "image",
+        reads=True,
+    ),
     Format("picture", (".png",), "picture", writes=True),
     Format("SVG", (".svg",), "svg_reader", reads=True),
     Format("SVG", (".svg",), "svg_writer", writes=True),
@@ -123,8 +128,8 @@ def read(
     Traceback (most recent call last):
     ...
     shapespline.errors.UnknownFormatError: outline.xyz: no reader for '.xyz'; readable endings: \
-.3dm .bmp .csv .dat .dxf .geojson .iges .igs .jpeg .jpg .json .npy .png .step .stp .svg .tif .tiff \
-.tsv .txt .xy
+.3dm .bmp .csv .dat .dxf .geojson .gif .iges .igs .jpeg .jpg .json .npy .png .step .stp .svg .tif \
+.tiff .tsv .txt .webp .xy
     """
     path = Path(path)
     if path.is_dir():

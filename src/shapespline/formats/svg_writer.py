@@ -44,7 +44,8 @@ def encode(
 ) -> bytes:
     """Text of an SVG file with one path for each outline and its holes.
 
-    Closed curves are filled black by the even-odd rule; open ones are stroked and unfilled. y is
+    Closed curves are filled by the even-odd rule, black if they have no colour of their own; open
+    ones are stroked and unfilled. y is
     turned over once. With a frame the view box is the frame and coordinates stay within it; without
     one the view box begins at (0, 0) and is the bounding box of the curves with a small margin, so
     that coordinates far from the origin (maps) survive programs that draw in single precision.
@@ -113,7 +114,8 @@ def encode(
     ]
     for group in paths:
         filled = fill and drawing.fits[group[0]].closed
-        style = 'fill="black" fill-rule="evenodd"' if filled else stroked
+        color = drawing.colors[group[0]] or "black"
+        style = f'fill="{color}" fill-rule="evenodd"' if filled else stroked
         data = "".join(
             _path_data(placement(pieces[index]), drawing.fits[index].closed) for index in group
         )

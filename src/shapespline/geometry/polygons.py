@@ -40,7 +40,7 @@ def polygon_drawing(shape: Shape) -> Drawing:
     (4, True, True)
     """
     fits = [_polygon_fit(contour) for contour in shape]
-    return Drawing(fits, shape.parents, shape.frame, shape.unit)
+    return Drawing(fits, shape.parents, shape.frame, shape.unit, colors=shape.colors)
 
 
 def _polygon_fit(contour: Contour) -> Fit:

@@ -78,10 +78,13 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
     """
     frame = None if value.frame is None else ViewBox(*(factor * side for side in value.frame))
     if isinstance(value, Shape):
-        return Shape([_contour(item, factor) for item in value], value.parents, frame, unit)
+        left_out = [_contour(item, factor) for item in value.left_out]
+        contours = [_contour(item, factor) for item in value]
+        return Shape(contours, value.parents, frame, unit, left_out=left_out, colors=value.colors)
     if isinstance(value, Outlines):
         return Outlines([_pieces(item, factor) for item in value.curves], frame, unit)
-    return Drawing([_fit(item, factor) for item in value], value.parents, frame, unit)
+    fits = [_fit(item, factor) for item in value]
+    return Drawing(fits, value.parents, frame, unit, colors=value.colors)
 
 
 def _contour(contour: Contour, factor: float) -> Contour:
@@ -89,7 +92,8 @@ def _contour(contour: Contour, factor: float) -> Contour:
         return contour
     given = factor * contour.points[contour.source]
     accuracy = None if contour.accuracy is None else factor * contour.accuracy
-    return Contour.silently(given, contour.closed, accuracy=accuracy)
+    line = None if contour.level_line is None else factor * contour.level_line
+    return Contour.silently(given, contour.closed, accuracy=accuracy, level_line=line)
 
 
 def _pieces(pieces: Sequence[Piece], factor: float) -> tuple[Piece, ...]:

@@ -1,7 +1,17 @@
 """Tracing: from a picture to a Shape."""
 
 from shapespline.tracing.centerline import centerlines
-from shapespline.tracing.outlines import Polarity, Selection, trace_image
+from shapespline.tracing.colors import trace_colors
+from shapespline.tracing.outlines import Selection, trace_image
 from shapespline.tracing.pixels import Channel
+from shapespline.tracing.seeing import Local, Polarity
 
-__all__ = ["Channel", "Polarity", "Selection", "centerlines", "trace_image"]
+__all__ = [
+    "Channel",
+    "Local",
+    "Polarity",
+    "Selection",
+    "centerlines",
+    "trace_colors",
+    "trace_image",
+]

@@ -97,7 +97,7 @@ def colour_distance(pixels: NDArray[Any], color: str) -> FloatArray:
     ([[147.0, 0.0]], [[0.0, 147.22431864335456]])
     """
     if pixels.ndim == 3 and pixels.shape[2] in (2, 4):
-        pixels = _on_ground(pixels)
+        pixels = on_ground(pixels)
     if pixels.ndim == 2:
         pixels = np.repeat(pixels[:, :, None], 3, axis=2)
     wanted = _colour(color, pixels)
@@ -129,7 +129,7 @@ def _colour(color: str, pixels: NDArray[Any]) -> FloatArray:
         rgb = ImageColor.getrgb(color)[:3]
     except ValueError:
         raise InvalidInputError(expected) from None
-    return np.array(rgb) / 255 * _full_scale(pixels)
+    return np.array(rgb) / 255 * full_scale(pixels)
 
 
 def pixel_values(pixels: NDArray[Any], channel: Channel, *, lightness: bool) -> PixelValues:
@@ -156,7 +156,7 @@ def pixel_values(pixels: NDArray[Any], channel: Channel, *, lightness: bool) -> 
     if channel == "alpha" or (free and has_alpha and _is_one_colour(pixels)):
         return PixelValues(pixels[:, :, -1], is_difference=False)
     if has_alpha:
-        pixels = _on_ground(pixels)
+        pixels = on_ground(pixels)
     if channel in ("red", "green", "blue"):
         if pixels.ndim == 2:
             raise InvalidInputError(f"channel {channel!r} needs a colour picture; use 'grey'")
@@ -167,14 +167,14 @@ def pixel_values(pixels: NDArray[Any], channel: Channel, *, lightness: bool) -> 
     return PixelValues(_grey(pixels), is_difference=False)
 
 
-def _full_scale(pixels: NDArray[Any]) -> float:
+def full_scale(pixels: NDArray[Any]) -> float:
     """Value of white and opaque: the largest integer, or 1 for floats."""
     return float(np.iinfo(pixels.dtype).max) if pixels.dtype.kind == "u" else 1.0
 
 
 def _is_one_colour(pixels: NDArray[Any]) -> bool:
     """Whether all pixels that are more than half opaque look alike, some pixel being clear."""
-    alpha, full = pixels[:, :, -1], _full_scale(pixels)
+    alpha, full = pixels[:, :, -1], full_scale(pixels)
     visible = pixels[alpha > 0.5 * full][:, :-1]
     if len(visible) == 0 or len(visible) == alpha.size:
         return False
@@ -182,9 +182,9 @@ def _is_one_colour(pixels: NDArray[Any]) -> bool:
     return bool(spread.max() <= ONE_COLOUR * full)
 
 
-def _on_ground(pixels: NDArray[Any]) -> NDArray[Any]:
+def on_ground(pixels: NDArray[Any]) -> NDArray[Any]:
     """Pixels laid on white, or on black if what is visible is mostly light; without alpha."""
-    full = _full_scale(pixels)
+    full = full_scale(pixels)
     alpha = pixels[:, :, -1]
     colours = pixels[:, :, :-1]
     if (alpha == full).all():
@@ -204,7 +204,7 @@ def _is_coloured(pixels: NDArray[Any]) -> bool:
     if pixels.ndim == 2:
         return False
     spread = pixels.max(axis=2).astype(np.float32) - pixels.min(axis=2)
-    return bool((spread > COLOURED_SPREAD * _full_scale(pixels)).mean() > COLOURED_PIXELS)
+    return bool((spread > COLOURED_SPREAD * full_scale(pixels)).mean() > COLOURED_PIXELS)
 
 
 def _grey(pixels: NDArray[Any]) -> NDArray[Any]:

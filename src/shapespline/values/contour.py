@@ -25,6 +25,8 @@ from shapespline.validation import float_array, is_number
 if TYPE_CHECKING:
     from shapespline.typing import ArrayLike, FloatArray, IntArray
 
+    _State = tuple[FloatArray, bool, IntArray, float | None, FloatArray | None]
+
 # Between these no fourth power of a coordinate over- or underflows; solvers form such products.
 LARGEST_COORDINATE = 1e60
 SMALLEST_DIAGONAL = 1e-60
@@ -130,6 +132,9 @@ class Contour:
     accuracy : float, optional
         Standard deviation of the points across the outline that their source is known to have,
         data units; a picture's pixels set it. Estimation does not look for finer detail.
+    level_line : array_like, shape (k, 2), optional
+        Of an outline that was read from the grey of a picture, the line at half grey that it
+        stands for: what the picture shows before anything is mended.
 
     Attributes
     ----------
@@ -137,6 +142,7 @@ class Contour:
         The distinct points, float64, read-only.
     closed : bool
     accuracy : float or None
+    level_line : ndarray, shape (k, 2), or None
     source : ndarray, shape (n_given,)
         For each point that was given, the index in ``points`` of the one that stands for it.
 
@@ -158,11 +164,17 @@ class Contour:
     closed: bool
     source: IntArray = field(repr=False)
     accuracy: float | None = field(repr=False)
+    level_line: FloatArray | None = field(repr=False)
 
     def __init__(
-        self, points: ArrayLike, closed: bool | None = None, *, accuracy: float | None = None
+        self,
+        points: ArrayLike,
+        closed: bool | None = None,
+        *,
+        accuracy: float | None = None,
+        level_line: ArrayLike | None = None,
     ) -> None:
-        n_dropped = self._assemble(_validated(points), closed, accuracy)
+        n_dropped = self._assemble(_validated(points), closed, accuracy, level_line)
         if n_dropped:
             warnings.warn(
                 f"dropped {n_dropped} of {self.n_given} points: equal to the point before them",
@@ -171,10 +183,17 @@ class Contour:
             )
 
     @classmethod
-    def silently(cls, points: ArrayLike, closed: bool, *, accuracy: float | None = None) -> Contour:
+    def silently(
+        cls,
+        points: ArrayLike,
+        closed: bool,
+        *,
+        accuracy: float | None = None,
+        level_line: ArrayLike | None = None,
+    ) -> Contour:
         """The same without a warning, for points whose repetitions have been told before."""
         contour = cls.__new__(cls)
-        contour._assemble(_validated(points), closed, accuracy)
+        contour._assemble(_validated(points), closed, accuracy, level_line)
         return contour
 
     @classmethod
@@ -184,7 +203,13 @@ class Contour:
         contour._set(points, closed, np.arange(len(points)), accuracy)
         return contour
 
-    def _assemble(self, array: FloatArray, closed: bool | None, accuracy: float | None) -> int:
+    def _assemble(
+        self,
+        array: FloatArray,
+        closed: bool | None,
+        accuracy: float | None,
+        level_line: ArrayLike | None,
+    ) -> int:
         """Set the fields from validated points; how many were dropped."""
         if accuracy is not None and not (is_number(accuracy) and 0 <= accuracy < np.inf):
             raise InvalidInputError(
@@ -206,11 +231,17 @@ class Contour:
             source[source == len(distinct) - 1] = 0
             distinct = distinct[:-1]
         _check_extent(distinct, closed, len(array))
-        self._set(distinct, bool(closed), source, accuracy)
+        line = None if level_line is None else _read_only(_validated(level_line))
+        self._set(distinct, bool(closed), source, accuracy, line)
         return n_dropped
 
     def _set(
-        self, points: FloatArray, closed: bool, source: IntArray, accuracy: float | None
+        self,
+        points: FloatArray,
+        closed: bool,
+        source: IntArray,
+        accuracy: float | None,
+        level_line: FloatArray | None = None,
     ) -> None:
         points = np.ascontiguousarray(points)
         points.setflags(write=False)
@@ -219,13 +250,16 @@ class Contour:
         object.__setattr__(self, "closed", closed)
         object.__setattr__(self, "source", source)
         object.__setattr__(self, "accuracy", accuracy)
+        object.__setattr__(self, "level_line", level_line)
 
     # Between processes go the fields alone, and come back read-only.
-    def __getstate__(self) -> tuple[FloatArray, bool, IntArray, float | None]:
-        return self.points, self.closed, self.source, self.accuracy
+    def __getstate__(self) -> _State:
+        return self.points, self.closed, self.source, self.accuracy, self.level_line
 
-    def __setstate__(self, state: tuple[FloatArray, bool, IntArray, float | None]) -> None:
-        self._set(*state)
+    def __setstate__(self, state: _State) -> None:
+        points, closed, source, accuracy, level_line = state
+        line = None if level_line is None else _read_only(level_line)
+        self._set(points, closed, source, accuracy, line)
 
     def __len__(self) -> int:
         return len(self.points)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from shapespline.errors import InvalidInputError
 from shapespline.units import checked_unit
-from shapespline.values.shape import checked_parents, nesting_depth
+from shapespline.values.shape import checked_colors, checked_parents, nesting_depth
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -29,12 +29,16 @@ class Drawing:
         The image or view box of the source.
     unit : str, optional
         Of the coordinates, one of :data:`shapespline.units.UNITS`, if known.
+    colors : sequence of str or None, optional
+        For each fit the colour of the area within it, as #rrggbb; None, the default, for a hole
+        and where no colour is known.
     """
 
     fits: tuple[Fit, ...]
     parents: tuple[int, ...]
     frame: ViewBox | None
     unit: str | None
+    colors: tuple[str | None, ...]
 
     def __init__(
         self,
@@ -42,6 +46,8 @@ class Drawing:
         parents: Sequence[int] | None = None,
         frame: ViewBox | None = None,
         unit: str | None = None,
+        *,
+        colors: Sequence[str | None] | None = None,
     ) -> None:
         fits = (fits,) if isinstance(fits, Fit) else tuple(fits)
         if not fits:
@@ -53,6 +59,7 @@ class Drawing:
         object.__setattr__(self, "parents", checked_parents(parents, len(fits)))
         object.__setattr__(self, "frame", frame)
         object.__setattr__(self, "unit", checked_unit(unit))
+        object.__setattr__(self, "colors", checked_colors(colors, len(fits)))
 
     def __len__(self) -> int:
         return len(self.fits)

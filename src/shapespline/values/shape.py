@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from shapespline.errors import InvalidInputError
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
     from shapespline.values.view_box import ViewBox
 
 from shapespline.values.contour import Contour, checked_contour
+
+_COLOR = re.compile("#[0-9a-f]{6}")
 
 
 def checked_parents(parents: Sequence[int] | None, count: int) -> tuple[int, ...]:
@@ -50,6 +53,27 @@ def nesting_depth(parents: Sequence[int], index: int) -> int:
     return depth
 
 
+def checked_colors(colors: Sequence[str | None] | None, count: int) -> tuple[str | None, ...]:
+    """For each of ``count`` items its colour, None for none (the default).
+
+    Raises
+    ------
+    InvalidInputError
+        If there are not as many, or one is not written as #rrggbb.
+    """
+    if colors is None:
+        return (None,) * count
+    colors = tuple(colors)
+    if len(colors) != count:
+        raise InvalidInputError(
+            f"colors must name one colour for each: expected {count}, got {len(colors)}"
+        )
+    for color in colors:
+        if color is not None and not (isinstance(color, str) and _COLOR.fullmatch(color)):
+            raise InvalidInputError(f"colors must be None or like '#ff8800', got {color!r}")
+    return colors
+
+
 @dataclass(frozen=True, eq=False, init=False)
 class Shape:
     """What a file holds: contours and which lies directly inside which.
@@ -63,6 +87,11 @@ class Shape:
         The image or view box that the contours were read from.
     unit : str, optional
         Of the coordinates, one of :data:`shapespline.units.UNITS`, if known.
+    left_out : sequence of Contour, optional
+        What the source showed besides, and the reader took for noise.
+    colors : sequence of str or None, optional
+        For each contour the colour of the area within it, as #rrggbb; None, the default, for a
+        hole and where no colour is known.
 
     Examples
     --------
@@ -77,6 +106,8 @@ class Shape:
     parents: tuple[int, ...]
     frame: ViewBox | None
     unit: str | None
+    left_out: tuple[Contour, ...] = field(repr=False)
+    colors: tuple[str | None, ...] = field(repr=False)
 
     def __init__(
         self,
@@ -84,16 +115,23 @@ class Shape:
         parents: Sequence[int] | None = None,
         frame: ViewBox | None = None,
         unit: str | None = None,
+        *,
+        left_out: Sequence[Contour] = (),
+        colors: Sequence[str | None] | None = None,
     ) -> None:
-        contours = tuple(contours)
+        contours, left_out = tuple(contours), tuple(left_out)
         if not contours:
             raise InvalidInputError("contours must hold at least one Contour, got none")
         for contour in contours:
             checked_contour(contour, "contours")
+        for contour in left_out:
+            checked_contour(contour, "left_out")
         object.__setattr__(self, "contours", contours)
         object.__setattr__(self, "parents", checked_parents(parents, len(contours)))
         object.__setattr__(self, "frame", frame)
         object.__setattr__(self, "unit", checked_unit(unit))
+        object.__setattr__(self, "left_out", left_out)
+        object.__setattr__(self, "colors", checked_colors(colors, len(contours)))
 
     def __len__(self) -> int:
         return len(self.contours)

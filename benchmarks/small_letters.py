@@ -1,0 +1,143 @@
+"""Words in small letters, drawn, traced and counted, every part and every hole.
+
+    python -m benchmarks.small_letters              200 renderings, 12 to 96 pixels high
+    python -m benchmarks.small_letters --jpeg 90    the same through JPEG
+    python -m benchmarks.small_letters -o DIR       those that fail, as pictures
+
+The truth is the same word drawn eight times larger. A rendering shows it if its own pixels, cut
+at half grey, have as many parts and holes; only those count. potrace, where it is installed, gets
+the same pictures (specks of two pixels and less left out, as is its usual way).
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import shutil
+import subprocess
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import matplotlib
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+from scipy import ndimage
+
+import shapespline as ss
+from shapespline.tracing import trace_image
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+WORDS = (
+    "jäger & söhne", "Éclair, No. 9", "fig. 8a-e", "Größe: 36 %", "mini-bike.io", "café ôté, à",
+    "gizmo; Ω 0.5", "R&D ¡olé!", "@agäbe #86", "3½ × 6¾",
+)  # fmt: skip
+FONTS = ("DejaVuSans.ttf", "DejaVuSans-Bold.ttf", "DejaVuSerif.ttf", "DejaVuSerif-Italic.ttf")
+HEIGHTS = (12, 16, 24, 48, 96)
+LARGER = 8
+EIGHT = np.ones((3, 3), dtype=int)
+
+
+class Topology(NamedTuple):
+    """How many parts the ink has, and how many holes."""
+
+    parts: int
+    holes: int
+
+
+def drawn(word: str, font: str, height: int) -> NDArray[np.uint8]:
+    """A word black on white, its capitals about so many pixels high."""
+    path = Path(matplotlib.get_data_path()) / "fonts" / "ttf" / font
+    face = ImageFont.truetype(str(path), round(height / 0.73), layout_engine=0)
+    left, top, right, bottom = face.getbbox(word)
+    margin = max(2, height // 4)
+    size = (int(right - left) + 2 * margin, int(bottom - top) + 2 * margin)
+    image = Image.new("L", size, 255)
+    ImageDraw.Draw(image).text((margin - left, margin - top), word, font=face, fill=0)
+    return np.asarray(image)
+
+
+def of_pixels(ink: NDArray[np.bool_]) -> set[Topology]:
+    """Parts and holes of pixels that touch by sides, and by corners."""
+    ground = np.pad(~ink, 1, constant_values=True)
+    eight = Topology(ndimage.label(ink, EIGHT)[1], ndimage.label(ground)[1] - 1)
+    four = Topology(ndimage.label(ink)[1], ndimage.label(ground, EIGHT)[1] - 1)
+    return {four, eight}
+
+
+def of_shape(shape: ss.Shape) -> Topology:
+    """Parts and holes of outlines."""
+    holes = sum(shape.is_hole(index) for index in range(len(shape)))
+    return Topology(len(shape) - holes, holes)
+
+
+def by_potrace(image: NDArray[np.uint8]) -> Topology | None:
+    """Parts and holes that potrace finds; None where it is not installed."""
+    program = shutil.which("potrace")
+    if program is None:
+        return None
+    bitmap = io.BytesIO()
+    Image.fromarray(image).save(bitmap, format="PPM")
+    done = subprocess.run(
+        [program, "-b", "geojson", "-o", "-", "-"],
+        input=bitmap.getvalue(), capture_output=True, check=True,
+    )  # fmt: skip
+    import json
+
+    features = json.loads(done.stdout)["features"]
+    rings = [len(feature["geometry"]["coordinates"]) for feature in features]
+    return Topology(len(rings), sum(rings) - len(rings))
+
+
+def through_jpeg(image: NDArray[np.uint8], quality: int) -> NDArray[np.uint8]:
+    """What is left of a picture after JPEG."""
+    held = io.BytesIO()
+    Image.fromarray(image).save(held, format="JPEG", quality=quality)
+    return np.asarray(Image.open(held))
+
+
+def renderings() -> Iterator[tuple[str, Topology, NDArray[np.uint8]]]:
+    """Names, true topologies and pictures of which the pixels have it."""
+    for word in WORDS:
+        for font in FONTS:
+            for height in HEIGHTS:
+                image = drawn(word, font, height)
+                large = drawn(word, font, height * LARGER)
+                (truth,) = of_pixels(ndimage.median_filter(large, 3) < 128) or {Topology(0, 0)}
+                yield f"{word} {font[:-4]} {height}", truth, image
+
+
+def main() -> None:
+    """Read the arguments and print."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--jpeg", type=int, help="quality")
+    parser.add_argument("-o", "--output", type=Path, help="folder for pictures of what fails")
+    chosen = parser.parse_args()
+    shown, right, theirs, failures = 0, 0, 0, []
+    for name, truth, clean in renderings():
+        if truth not in of_pixels(clean < 128):
+            continue
+        image = clean if chosen.jpeg is None else through_jpeg(clean, chosen.jpeg)
+        shown += 1
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ss.PictureWarning)
+            found = of_shape(trace_image(image))
+        theirs += by_potrace(image) == truth
+        if found == truth:
+            right += 1
+        else:
+            failures.append((name, truth, found))
+            if chosen.output is not None:
+                Image.fromarray(image).save(chosen.output / f"{len(failures)}.png")
+    print(f"{shown} of {len(WORDS) * len(FONTS) * len(HEIGHTS)} renderings show their topology")
+    print(f"shapespline has {right} of them right, potrace {theirs}")
+    for name, truth, found in failures:
+        print(f"  {name}: {truth.parts} parts and {truth.holes} holes, found {tuple(found)}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,215 @@
+"""Borders between areas of any number of kinds: each of them once, from junction to junction.
+
+Marching squares on labels: the border crosses between neighbouring pixels of different labels;
+where three or four meet in a cell they have a junction there. Every area is bounded by rings of
+these borders, so that neighbours share theirs to the bit, without a gap and without an overlap.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from shapespline.typing import BoolArray, FloatArray, IntArray
+
+OUTSIDE = -1
+
+
+class Nodes(NamedTuple):
+    """Where borders cross between two pixels: as Crossings, and the labels of the two."""
+
+    row: IntArray
+    column: IntArray
+    upright: BoolArray
+    first: IntArray
+    second: IntArray
+
+
+class Borders(NamedTuple):
+    """Crossings, junctions, and how they hang together.
+
+    Attributes
+    ----------
+    nodes : Nodes
+    cells : list of list of int
+        For each junction the four nodes around it, clockwise from the upper side; -1 for none.
+    corners : list of tuple of float
+        Corners of the picture that borders go round, numbered after nodes and junctions.
+    links : list of list of int
+        For each node or corner the one or two that come next: nodes, corners or junctions.
+    """
+
+    nodes: Nodes
+    cells: list[list[int]]
+    corners: list[tuple[float, float]]
+    links: list[list[int]]
+
+
+class Ring(NamedTuple):
+    """A closed border with one label on its left: its nodes in order."""
+
+    label: int
+    path: list[int]
+
+
+def borders_of(labels: IntArray) -> Borders:
+    """Crossings and junctions of a picture of labels, its rim included."""
+    height, width = labels.shape
+    padded = np.pad(labels, 1, constant_values=OUTSIDE)
+    beside, below = padded[:, :-1] != padded[:, 1:], padded[:-1] != padded[1:]
+    numbers = [np.full(side.shape, -1, dtype=np.int64) for side in (beside, below)]
+    count = int(beside.sum())
+    numbers[0][beside] = np.arange(count)
+    numbers[1][below] = count + np.arange(int(below.sum()))
+    places = [np.nonzero(side) for side in (beside, below)]
+    row, column = (np.concatenate([p[k] for p in places]) for k in (0, 1))
+    upright = np.arange(len(row)) >= count
+    nodes = Nodes(
+        row - 1, column - 1, upright, padded[row, column], padded[row + upright, column + ~upright]
+    )
+    links: list[list[int]] = [[] for _ in range(len(row))]
+    # Upper, right, lower and left side of each cell that something crosses.
+    sides = np.stack(
+        [numbers[0][:-1], numbers[1][:, 1:], numbers[0][1:], numbers[1][:, :-1]], axis=-1
+    )
+    crossed = (sides >= 0).sum(axis=-1)
+    cells: list[list[int]] = []
+    corners: list[tuple[float, float]] = []
+    pending: list[tuple[int, int]] = []
+    rows, columns = np.nonzero(crossed)
+    for r, c, four in zip(
+        rows.tolist(), columns.tolist(), sides[rows, columns].tolist(), strict=True
+    ):
+        there = [node for node in four if node >= 0]
+        if len(there) == 2 and r in (0, height) and c in (0, width):
+            corners.append((float(c), float(height - r)))
+            pending.append((there[0], len(corners) - 1))
+            pending.append((there[1], len(corners) - 1))
+        elif len(there) == 2:
+            links[there[0]].append(there[1])
+            links[there[1]].append(there[0])
+        elif len(there) == 4 and (ways := _apart(padded, r, c)) is not None:
+            for a, b in ways:
+                links[four[a]].append(four[b])
+                links[four[b]].append(four[a])
+        else:
+            cells.append(four)
+    first_junction = len(row)
+    for index, four in enumerate(cells):
+        for node in four:
+            if node >= 0:
+                links[node].append(first_junction + index)
+    first_corner = first_junction + len(cells)
+    links += [[] for _ in range(len(cells) + len(corners))]
+    for node, corner in pending:
+        links[node].append(first_corner + corner)
+        links[first_corner + corner].append(node)
+    return Borders(nodes, cells, corners, links)
+
+
+def _apart(padded: IntArray, r: int, c: int) -> tuple[tuple[int, int], tuple[int, int]] | None:
+    """Pairs of sides that belong together where two labels, each twice, meet by their corners.
+
+    What there is less of around is joined.
+    """
+    a, b = padded[r, c], padded[r, c + 1]
+    if a != padded[r + 1, c + 1] or b != padded[r + 1, c]:
+        return None
+    around = padded[max(r - 2, 0) : r + 4, max(c - 2, 0) : c + 4]
+    if (around == a).sum() <= (around == b).sum():  # upper left and lower right are joined
+        return (0, 1), (2, 3)
+    return (0, 3), (1, 2)
+
+
+def rings_of(borders: Borders, points: FloatArray) -> list[Ring]:
+    """Every ring around an area or a hole in it, the area on its left.
+
+    Parameters
+    ----------
+    borders : Borders
+    points : ndarray, shape (n, 2)
+        Places of nodes, junctions and corners, y up, each node between its two pixels.
+    """
+    arcs = _arcs(borders)
+    # A half of a border: the arc, and whether it is run backwards.
+    starts: dict[tuple[int, int], tuple[int, bool]] = {}
+    for index, arc in enumerate(arcs):
+        if _is_junction(borders, arc[0]):
+            starts[arc[0], arc[1]] = (index, False)
+            starts[arc[-1], arc[-2]] = (index, True)
+    labels = [_sides(borders, points, arc) for arc in arcs]
+    rings, done = [], set()
+    for index in range(len(arcs)):
+        for backwards in (False, True):
+            if (index, backwards) in done:
+                continue
+            label = labels[index][backwards]
+            path: list[int] = []
+            half = (index, backwards)
+            while half not in done:
+                done.add(half)
+                arc = arcs[half[0]][::-1] if half[1] else arcs[half[0]]
+                path += arc[:-1]
+                if not _is_junction(borders, arc[-1]):
+                    break  # a ring of its own
+                half = starts[arc[-1], _clockwise(borders, arc[-1], arc[-2])]
+            if label != OUTSIDE:
+                rings.append(Ring(label, path))
+    return rings
+
+
+def _is_junction(borders: Borders, node: int) -> bool:
+    n_nodes = len(borders.nodes.row)
+    return n_nodes <= node < n_nodes + len(borders.cells)
+
+
+def _clockwise(borders: Borders, junction: int, came: int) -> int:
+    """The node by which who comes from another leaves a junction, the same area on the left."""
+    four = borders.cells[junction - len(borders.nodes.row)]
+    side = four.index(came)
+    return next(four[(side + k) % 4] for k in (1, 2, 3, 4) if four[(side + k) % 4] >= 0)
+
+
+def _arcs(borders: Borders) -> list[list[int]]:
+    """Borders from junction to junction, and closed ones, whose first node is their last."""
+    seen: set[int] = set()
+    arcs = []
+
+    def walk(path: list[int]) -> list[int]:
+        while True:
+            here, before = path[-1], path[-2]
+            if _is_junction(borders, here) or here == path[0]:
+                return path
+            seen.add(here)
+            a, b = borders.links[here]
+            path.append(b if a == before else a)
+
+    first = len(borders.nodes.row)
+    for junction, four in enumerate(borders.cells, start=first):
+        for node in four:
+            if node >= 0 and node not in seen:
+                arcs.append(walk([junction, node]))  # noqa: PERF401 - each walk marks what it saw
+    for node in range(first):
+        if node not in seen:
+            seen.add(node)
+            arcs.append(walk([node, borders.links[node][1]]))
+    return arcs
+
+
+def _sides(borders: Borders, points: FloatArray, arc: list[int]) -> tuple[int, int]:
+    """The labels on the left and on the right of an arc."""
+    nodes = borders.nodes
+    index = next(k for k, node in enumerate(arc) if node < len(nodes.row))
+    here = arc[index]
+    ahead = (
+        points[arc[index + 1]] - points[here]
+        if index + 1 < len(arc)
+        else points[here] - points[arc[index - 1]]
+    )
+    # From the second pixel to the first: up or to the left.
+    to_first = (0.0, 1.0) if nodes.upright[here] else (-1.0, 0.0)
+    first_left = ahead[0] * to_first[1] - ahead[1] * to_first[0] > 0
+    first, second = int(nodes.first[here]), int(nodes.second[here])
+    return (first, second) if first_left else (second, first)

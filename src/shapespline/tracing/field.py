@@ -1,0 +1,54 @@
+"""Field: how much of each pixel is ink, read off a picture where it is asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from shapespline.typing import BoolArray, FloatArray, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """One value for each pixel, and what its values mean.
+
+    A picture is kept in its own type: what is computed of it is computed at the borders of the
+    ink alone, so that a large one takes little more memory than itself.
+
+    Attributes
+    ----------
+    values : ndarray, shape (h, w)
+    cut : float or ndarray of shape (h, w)
+        Where ink and ground part; no pixel lies on it.
+    light : bool
+        Whether the ink has the greater values.
+    contrast : float
+        Difference of the values of ink and ground, positive.
+    noise : float
+        Standard deviation of the values where the picture is even, as a part of the contrast.
+    """
+
+    values: NDArray[Any]
+    cut: float | FloatArray
+    light: bool
+    contrast: float
+    noise: float = 0.0
+
+    @property
+    def ink(self) -> BoolArray:
+        """Which pixels are ink by more than half."""
+        above = self.values >= self.cut
+        return above if self.light else ~above
+
+    def coverage(self, row: IntArray, column: IntArray) -> FloatArray:
+        """Part of pixels that is ink, 1/2 at the cut; outside the picture that of its rim."""
+        height, width = self.values.shape
+        row, column = np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)
+        cut = self.cut if np.ndim(self.cut) == 0 else cast("FloatArray", self.cut)[row, column]
+        excess = (self.values[row, column] - cut) / self.contrast
+        return 0.5 + (excess if self.light else -excess)

@@ -1,0 +1,130 @@
+"""Uneven lighting: the ground of a picture as it would be without ink, and the picture on it.
+
+Light falls off smoothly: towards the corners (vignette), or away from a lamp. What the ground is
+worth is read from blocks of pixels, each by its lightest tenth (its darkest, where the ink is
+light); a polynomial through them leaves out blocks that ink fills. Dark ink is a part of the light
+that falls on it, so the picture is divided by its ground; from light ink the ground is subtracted.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shapespline.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from shapespline.tracing.crossings import Crossings
+    from shapespline.tracing.field import Field
+    from shapespline.typing import FloatArray
+
+# Blocks along the longer side, and the part of a block's pixels that show its ground.
+BLOCKS, GROUND_PART = 48, 0.1
+# Total degree of the polynomial; how often blocks of ink are told anew, and how many median
+# deviations below the ground they are.
+DEGREE, ROUNDS, BELOW = 4, 8, 3.0
+# A level line runs along an edge if the values across it differ by this part of the contrast within
+# so many pixels. Lines of which more than this part runs along none show that one level is wrong;
+# another way is better if it leaves less than this, and less than this part of what there was.
+EDGE, REACH, ALONG_NOTHING, BETTER = 0.35, 3, 0.12, 0.6
+
+
+def part_along_nothing(field: Field, found: Crossings) -> float:
+    """Part of the level lines that runs along no edge of the picture."""
+    inner = np.flatnonzero(~found.at_rim(*field.values.shape))
+    if len(inner) == 0:
+        return 0.0
+    part = found.chosen(inner[:: len(inner) // 200_000 + 1])
+    offsets = np.arange(1 - REACH, REACH + 1)
+    row = part.row[:, None] + np.where(part.upright[:, None], offsets, 0)
+    column = part.column[:, None] + np.where(part.upright[:, None], 0, offsets)
+    across = field.coverage(row, column)
+    return float((np.ptp(across, axis=1) < EDGE).mean())
+
+
+def evenly_lit(values: NDArray[Any], light: bool, window: float | None = None) -> FloatArray:
+    """The picture on an even ground: 1 where the ink is dark, 0 where it is light.
+
+    Parameters
+    ----------
+    values : ndarray, shape (h, w)
+    light : bool
+        Whether the ink is lighter than the ground.
+    window : float, optional
+        Pixels within which there is ground everywhere, and over which its light may change; if not
+        given, it changes slowly over the whole picture.
+
+    Raises
+    ------
+    InvalidInputError
+        If the window is smaller than 4 pixels.
+    """
+    height, width = values.shape
+    size = max(height, width) / BLOCKS if window is None else 0.5 * window
+    if window is not None and not window >= 4:
+        raise InvalidInputError(f"local must be a window of at least 4 pixels, got {window}")
+    n_rows, n_columns = max(1, round(height / size)), max(1, round(width / size))
+    row_edges = np.linspace(0, height, n_rows + 1).astype(int)
+    column_edges = np.linspace(0, width, n_columns + 1).astype(int)
+    quantile = GROUND_PART if light else 1.0 - GROUND_PART
+    blocks = np.array(
+        [
+            [np.quantile(values[a:b, c:d], quantile) for c, d in pairwise(column_edges)]
+            for a, b in pairwise(row_edges)
+        ]
+    )
+    centres = [0.5 * (edges[1:] + edges[:-1]) for edges in (row_edges, column_edges)]
+    if window is None:
+        ground = _smooth_ground(blocks, centres, values.shape, light)
+    else:
+        ground = _near_ground(blocks, centres, values.shape, light)
+    if light:
+        return np.asarray(values - ground, dtype=np.float64)
+    return np.asarray(values / np.maximum(ground, 1e-3 * float(blocks.max()) + 1e-12))
+
+
+def _smooth_ground(
+    blocks: FloatArray, centres: list[FloatArray], shape: tuple[int, ...], light: bool
+) -> FloatArray:
+    """A polynomial through the blocks of ground."""
+    y, x = (2 * c / n - 1 for c, n in zip(centres, shape, strict=True))
+    degrees = [(i, j) for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)]
+    powers = np.array([np.outer(y**i, x**j).ravel() for i, j in degrees]).T
+    seen = blocks.ravel()
+    used = np.ones(len(seen), dtype=bool)
+    for _ in range(ROUNDS):
+        solved = np.linalg.lstsq(powers[used], seen[used], rcond=None)[0]
+        off = (seen - powers @ solved) * (-1.0 if light else 1.0)
+        spread = 1.4826 * float(np.median(np.abs(off[used]))) + 1e-9 * float(np.ptp(seen))
+        kept = off > -BELOW * spread
+        if kept.sum() < 2 * len(degrees) or (kept == used).all():
+            break
+        used = kept
+    y, x = (2 * (np.arange(n) + 0.5) / n - 1 for n in shape)
+    columns = np.array([x**j for j in range(DEGREE + 1)])
+    ground = np.zeros(shape)
+    for i in range(DEGREE + 1):
+        row = sum(
+            value * columns[j] for (k, j), value in zip(degrees, solved, strict=True) if k == i
+        )
+        ground += np.outer(y**i, row)
+    return ground
+
+
+def _near_ground(
+    blocks: FloatArray, centres: list[FloatArray], shape: tuple[int, ...], light: bool
+) -> FloatArray:
+    """Between blocks that each take the best ground of their neighbours."""
+    from scipy import ndimage
+
+    best = (ndimage.minimum_filter if light else ndimage.maximum_filter)(blocks, 3, mode="nearest")
+    best = ndimage.gaussian_filter(best, 0.7, mode="nearest")
+    rows = np.interp(np.arange(shape[0]) + 0.5, centres[0], np.arange(len(centres[0])))
+    columns = np.interp(np.arange(shape[1]) + 0.5, centres[1], np.arange(len(centres[1])))
+    return np.asarray(
+        ndimage.map_coordinates(best, np.meshgrid(rows, columns, indexing="ij"), order=1)
+    )

@@ -1,0 +1,134 @@
+"""Outlines of a Field: put where the grey tells, or left on the level line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.tracing.corners import sharpened
+from shapespline.tracing.edges import drawn_shares, level_shares
+
+if TYPE_CHECKING:
+    from shapespline.tracing.crossings import Crossings
+    from shapespline.tracing.field import Field
+    from shapespline.typing import BoolArray, FloatArray
+
+# Two points closer than this (pixels) surround one pixel centre: one is enough.
+SAME_POINT = 1e-3
+# Where rows pass an edge more squarely than columns, their crossings tell its place, and those of
+# the columns only lie between them; nearly at 45 degrees both do. Outlines of few points keep all.
+LEAST_ACROSS, FEW_POINTS = 0.65, 12
+# Crossings on either side between which an edge has its direction.
+CHORD = 2
+# Pixels, root mean square over traced glyphs and icons whose outlines are known: where the grey
+# tells the edge, where only the level does, and where there is no grey.
+DRAWN_ACCURACY, ACCURACY, ONE_BIT_ACCURACY = 0.02, 0.07, 0.25
+# Part of an outline's points that have to be of a kind for it to be of that kind; steps of one
+# pixel that a drawing of edges along rows and columns has at most.
+MOST, FEW_STEPS = 0.5, 4
+
+
+class Line(NamedTuple):
+    """An outline as it was drawn, its level line, and how accurate it is."""
+
+    points: FloatArray
+    level_line: FloatArray
+    accuracy: float
+
+
+def drawn_lines(field: Field, found: Crossings, places: FloatArray, kept: BoolArray) -> list[Line]:
+    """Outlines as they were drawn."""
+    height, width = field.values.shape
+    loops = [found.loops[index] for index in np.flatnonzero(kept)]
+    used = np.concatenate(loops)
+    part = found.chosen(used)
+    edges = drawn_shares(field, part, level_shares(field, part))
+    places_drawn = part.places(height, edges.shares)
+    at_rim = part.at_rim(height, width)
+    midway = np.abs(level_shares(field, part) - 0.5) < 1e-9
+    outlines, level_lines, accuracies = [], [], []
+    begin = 0
+    for loop in loops:
+        own = slice(begin, begin + len(loop))
+        begin += len(loop)
+        across = _across(places[loop], part.upright[own])
+        level_line = distinct(_with_rim_corners(places[loop], height, width))
+        inner = ~at_rim[own]
+        upright = part.upright[own]
+        accuracy = _accuracy(
+            edges.known[own][inner], midway[own][inner], across[inner], upright[inner]
+        )
+        points = places_drawn[own]
+        if accuracy == DRAWN_ACCURACY and len(loop) >= FEW_POINTS:
+            told = (across >= LEAST_ACROSS) | ~inner
+            points = _bent(points[told], part.upright[own][told], edges.known[own][told])
+            points = np.clip(points, 0, (width, height))
+        points = distinct(_with_rim_corners(points, height, width))
+        outlines.append(points if len(points) >= 3 else level_line)
+        level_lines.append(level_line)
+        accuracies.append(accuracy)
+    drawn = [accuracy == DRAWN_ACCURACY for accuracy in accuracies]
+    outlines = sharpened(outlines, level_lines, drawn, field)
+    return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
+
+
+def _across(places: FloatArray, upright: BoolArray) -> FloatArray:
+    """How squarely an outline passes the row or column of each crossing, 0 to 1."""
+    chords = np.roll(places, -CHORD, axis=0) - np.roll(places, CHORD, axis=0)
+    length = np.maximum(np.hypot(chords[:, 0], chords[:, 1]), 1e-12)
+    return np.abs(np.where(upright, chords[:, 0], chords[:, 1])) / length
+
+
+def _bent(points: FloatArray, upright: BoolArray, known: BoolArray) -> FloatArray:
+    """Points of an outline moved from the mean over their column or row to its middle.
+
+    Over a unit, a curve f is f'' / 24 higher in the mean than in the middle.
+    """
+    before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
+    moved = points.copy()
+    for axis, own in ((1, upright), (0, ~upright)):
+        across = 1 - axis
+        even = np.abs(before[:, across] - points[:, across]) == 1.0
+        even &= before[:, across] + after[:, across] == 2 * points[:, across]
+        use = known & own & even & np.roll(own, 1) & np.roll(own, -1)
+        second = (before + after - 2 * points)[use, axis]
+        moved[use, axis] -= np.clip(second, -0.5, 0.5) / 24
+    return moved
+
+
+def _accuracy(known: BoolArray, midway: BoolArray, across: FloatArray, upright: BoolArray) -> float:
+    """Standard deviation of an outline.
+
+    Edges along rows and columns without grey may lie on the lines between pixels; steps of one
+    pixel without grey are those of a picture of one bit.
+    """
+    if len(midway) == 0:  # the rim alone
+        return DRAWN_ACCURACY
+    turns = upright != np.roll(upright, 1)
+    steps = turns & np.roll(turns, -1) & midway
+    if midway.mean() > MOST and steps.sum() >= FEW_STEPS:
+        return ONE_BIT_ACCURACY
+    told = across >= LEAST_ACROSS
+    return DRAWN_ACCURACY if told.any() and known[told].mean() > MOST else ACCURACY
+
+
+def _with_rim_corners(points: FloatArray, height: int, width: int) -> FloatArray:
+    """An outline that goes round a corner of the picture, through that corner."""
+    ahead = np.roll(points, -1, axis=0)
+    size = np.array([width, height])
+    at_side = (points == 0) | (points == size)
+    next_at_side = np.roll(at_side, -1, axis=0)
+    turns = (at_side[:, 0] & next_at_side[:, 1]) | (at_side[:, 1] & next_at_side[:, 0])
+    turns &= np.abs(ahead - points).max(axis=1) < 1.0
+    where = np.flatnonzero(turns)
+    if len(where) == 0:
+        return points
+    corner = np.where(points[where] + ahead[where] < size, 0, size)
+    return np.insert(points, where + 1, corner, axis=0)
+
+
+def distinct(points: FloatArray) -> FloatArray:
+    """Points of a closed outline without those that all but equal the one before them."""
+    steps = points - np.roll(points, 1, axis=0)
+    return points[np.hypot(steps[:, 0], steps[:, 1]) > SAME_POINT]

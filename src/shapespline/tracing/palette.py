@@ -1,0 +1,280 @@
+"""Palette: the few colours of a picture, and which of them each pixel is.
+
+The colours are those of its even parts, quantised by Pillow. What lies between two even parts is a
+mixture of their colours and belongs to the one of which it has more: an edge never becomes a third
+colour. What is no mixture of colours nearby, a thin stroke, is one with any other of the palette.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.errors import DegenerateContourError, InvalidInputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from shapespline.typing import BoolArray, FloatArray, IntArray
+
+MOST_COLORS = 64
+# Neighbours of an even pixel differ by no more, of 255 in each channel.
+EVEN = 10
+# "auto" finds no more colours than this; each has at least this part of the even pixels, and is at
+# least so far from all others (root mean square over the channels, of 255).
+AUTO_MOST, AUTO_PART, AUTO_APART = 16, 0.001, 14.0
+# A colour that so many pixels of a class share is the colour of the class, exactly.
+EXACT_PART = 0.3
+# Even pixels within so many pixels are nearby. A pixel farther than this from a mixture of two of
+# their colours is a mixture with another.
+NEARBY, MIXED = 2, 20.0
+# So many pixels, and this part of the picture, that are no mixtures have a colour of their own:
+# that of this part of them, the farthest from the colours around them.
+THIN, THIN_PART, FARTHEST_PART = 6, 1e-5, 0.1
+
+
+class Palette(NamedTuple):
+    """Colours, shape (k, 3), 0 to 255; and the index of one for each pixel, shape (h, w)."""
+
+    colors: FloatArray
+    labels: IntArray
+
+
+def palette_of(pixels: NDArray[np.uint8], colors: int | str) -> Palette:
+    """Quantise a picture.
+
+    Parameters
+    ----------
+    pixels : ndarray of uint8, shape (h, w, 3)
+    colors : int or "auto"
+        How many colours; "auto" is as many as clearly differ, 16 at most.
+
+    Raises
+    ------
+    InvalidInputError
+        If the picture has fewer colours.
+    DegenerateContourError
+        If it has one only.
+    """
+    even = _even(pixels)
+    flat = pixels[even] if even.sum() > 0.01 * even.size else pixels.reshape(-1, 3)
+    found = _with_thin(pixels, even, _chosen(flat, colors), colors)
+    if colors != "auto" and len(found) < int(colors):
+        raise InvalidInputError(
+            f"colors asks for {colors}, but the picture has {len(found)} that are no mixtures of"
+            " others: ask for no more, or auto"
+        )
+    if len(found) < 2:
+        raise DegenerateContourError(
+            "the picture has one colour only: there is no border to trace; choose another file"
+        )
+    return Palette(found, _labels(pixels, even, found))
+
+
+def _even(pixels: NDArray[np.uint8]) -> BoolArray:
+    """Pixels that hardly differ from their eight neighbours."""
+    from scipy import ndimage
+
+    spread = [
+        ndimage.maximum_filter(pixels[:, :, k], 3) - ndimage.minimum_filter(pixels[:, :, k], 3)
+        for k in range(3)
+    ]
+    return np.asarray(np.max(spread, axis=0) <= EVEN)
+
+
+def _chosen(flat: NDArray[np.uint8], colors: int | str) -> FloatArray:
+    """The colours of a palette, the most frequent first."""
+    from PIL import Image
+
+    wanted = MOST_COLORS if colors == "auto" else int(colors)
+    codes = flat.astype(np.int64) @ (65536, 256, 1)
+    distinct, codes = np.unique(codes, return_inverse=True)
+    counts = np.bincount(codes)
+    exact = np.stack(np.divmod(distinct, 65536)[:1] + np.divmod(distinct % 65536, 256), axis=1)
+    image = Image.fromarray(flat.reshape(1, -1, 3))
+    most = min(wanted, len(distinct))
+    if len(distinct) <= wanted:
+        member = np.arange(len(distinct))
+    else:
+        quantised = image.quantize(most, method=Image.Quantize.MAXCOVERAGE, kmeans=3)
+        table = np.array(quantised.getpalette()).reshape(-1, 3)[:most].astype(np.float64)
+        member = _nearest(exact.astype(np.float64), table)
+    classes = []
+    for index in np.unique(member):
+        own = np.flatnonzero(member == index)
+        number = counts[own]
+        first = own[np.argmax(number)]
+        if number.max() >= EXACT_PART * number.sum():
+            color = exact[first].astype(np.float64)
+        else:
+            color = (exact[own] * number[:, None]).sum(axis=0) / number.sum()
+        classes.append((int(number.sum()), color))
+    classes.sort(key=lambda item: (-item[0], *item[1]))
+    if colors == "auto":
+        classes = _clearly_different(classes, len(flat))
+    return np.array([color for _, color in classes])
+
+
+def _with_thin(
+    pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray, wanted: int | str
+) -> FloatArray:
+    """A palette with the colours of strokes too thin to have even pixels.
+
+    Those are pixels that no two colours of the palette mix to; of them the farthest from it.
+    """
+    most = AUTO_MOST if wanted == "auto" else int(wanted)
+    where = np.nonzero(~even)
+    values = pixels[where].astype(np.float64)
+    while len(values):
+        nearby = _nearby(even, _even_labels(pixels, even, colors), len(colors), where)
+        is_strange = _unmixed(values, nearby, colors)[1]
+        strange, nearby = values[is_strange], nearby[is_strange]
+        if len(strange) < max(THIN, THIN_PART * even.size):
+            break
+        nearby[~nearby.any(axis=1)] = True
+        off = np.sqrt(((strange[:, None] - colors) ** 2).mean(axis=2))
+        off = np.where(nearby, off, np.inf).min(axis=1)
+        farthest = strange[off >= np.quantile(off, 1 - FARTHEST_PART)]
+        new = np.median(farthest, axis=0)
+        if len(colors) == most:  # in place of the rarest, if that is a shade of another
+            apart = np.sqrt(((colors[:-1] - colors[-1]) ** 2).mean(axis=1)).min()
+            if apart > 3 * AUTO_APART:
+                break
+            colors = colors[:-1]
+        if np.sqrt(((colors - new) ** 2).mean(axis=1)).min() < AUTO_APART:
+            break
+        colors = np.concatenate([[new], colors])
+    return colors
+
+
+def _even_labels(pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray) -> IntArray:
+    labels = np.zeros(even.shape, dtype=np.int64)
+    labels[even] = _nearest(pixels[even].astype(np.float64), colors)
+    return labels
+
+
+def _nearby(
+    even: BoolArray, labels: IntArray, count: int, where: tuple[IntArray, ...]
+) -> BoolArray:
+    """Which colours the even pixels around some have, shape (n, count)."""
+    from scipy import ndimage
+
+    size = 2 * NEARBY + 1
+    found = [ndimage.maximum_filter(even & (labels == k), size)[where] for k in range(count)]
+    return np.stack(found, axis=1)
+
+
+def _clearly_different(
+    classes: list[tuple[int, FloatArray]], total: int
+) -> list[tuple[int, FloatArray]]:
+    """Classes that are large enough, and not shades of larger ones."""
+    kept: list[tuple[int, FloatArray]] = []
+    for count, color in classes:
+        apart = [float(np.sqrt(((color - other) ** 2).mean())) for _, other in kept]
+        if count >= AUTO_PART * total and min(apart, default=np.inf) >= AUTO_APART:
+            kept.append((count, color))
+    return kept[:AUTO_MOST]
+
+
+def _nearest(values: FloatArray, colors: FloatArray) -> IntArray:
+    """Index of the nearest colour of each value."""
+    best = np.full(len(values), np.inf)
+    index = np.zeros(len(values), dtype=np.int64)
+    for k, color in enumerate(colors):
+        off = ((values - color) ** 2).sum(axis=1)
+        closer = off < best
+        best[closer], index[closer] = off[closer], k
+    return index
+
+
+def _labels(pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray) -> IntArray:
+    """Index of a colour for each pixel."""
+    labels = _even_labels(pixels, even, colors)
+    where = np.nonzero(~even)
+    values = pixels[where].astype(np.float64)
+    labels[where] = _unmixed(values, _nearby(even, labels, len(colors), where), colors)[0]
+    return labels
+
+
+def _unmixed(
+    values: FloatArray, nearby: BoolArray, colors: FloatArray
+) -> tuple[IntArray, BoolArray]:
+    """The colour of which each value has more, mixed of two with one nearby; which are none."""
+    # Where nothing nearby is even any two may be mixed.
+    nearby = nearby | ~nearby.any(axis=1, keepdims=True)
+    label = _nearest(values, colors)
+    best = np.full(len(values), MIXED**2 * 3)
+    for pairs in (_nearby_pairs, _pairs_with_one):
+        open_values = np.flatnonzero(best == MIXED**2 * 3)
+        if len(open_values) == 0:
+            break
+        for a, b in combinations(range(len(colors)), 2):
+            own = open_values[pairs(nearby[open_values], a, b)]
+            along = colors[b] - colors[a]
+            from_a = values[own] - colors[a]
+            share = np.clip(from_a @ along / (along @ along), 0.0, 1.0)
+            off = ((from_a - share[:, None] * along) ** 2).sum(axis=1)
+            closer = off < best[own]
+            best[own[closer]] = off[closer]
+            label[own[closer]] = np.where(share[closer] < 0.5, a, b)
+    return label, best == MIXED**2 * 3
+
+
+def _nearby_pairs(nearby: BoolArray, a: int, b: int) -> BoolArray:
+    return nearby[:, a] & nearby[:, b]
+
+
+def _pairs_with_one(nearby: BoolArray, a: int, b: int) -> BoolArray:
+    return nearby[:, a] | nearby[:, b]
+
+
+def merged(palette: Palette, least: float) -> tuple[Palette, int]:
+    """Parts of one colour smaller than so many pixels given to the neighbour they touch most.
+
+    Returns
+    -------
+    palette : Palette
+    count : int
+        How many there were.
+    """
+    from scipy import ndimage
+
+    labels = palette.labels.copy()
+    count = 0
+    for _ in range(3):
+        parts = np.zeros(labels.shape, dtype=np.int64)
+        n_parts = 0
+        for k in range(len(palette.colors)):
+            own, n_own = ndimage.label(labels == k, np.ones((3, 3)))
+            parts = np.where(own > 0, own + n_parts, parts)
+            n_parts += n_own
+        small = np.bincount(parts.ravel(), minlength=n_parts + 1) < least
+        small[0] = False
+        if not small.any():
+            break
+        touching = _touching(parts, labels, small)
+        count += len(touching)
+        target = np.full(n_parts + 1, -1)
+        for part, label in touching:
+            target[part] = label
+        taken = target[parts]
+        labels = np.where(taken >= 0, taken, labels)
+    return Palette(palette.colors, labels), count
+
+
+def _touching(parts: IntArray, labels: IntArray, small: BoolArray) -> list[tuple[int, int]]:
+    """Small parts, each with the colour that it touches most."""
+    pairs = []
+    for a, b in (
+        ((slice(None), slice(1, None)), (slice(None), slice(None, -1))),
+        ((slice(1, None),), (slice(None, -1),)),
+    ):
+        for one, other in ((a, b), (b, a)):
+            use = small[parts[one]] & (labels[one] != labels[other])
+            pairs.append(np.stack([parts[one][use], labels[other][use]], axis=1))
+    seen, counts = np.unique(np.concatenate(pairs), axis=0, return_counts=True)
+    order = np.lexsort((-counts, seen[:, 0]))
+    first = np.unique(seen[order, 0], return_index=True)[1]
+    return [(part, label) for part, label in seen[order][first].tolist()]

@@ -1,0 +1,168 @@
+"""From a picture to its Field: what is looked at, what counts as ink, and where it is cut."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+
+from shapespline.errors import InvalidInputError, PictureWarning
+from shapespline.tracing.crossings import Crossings, crossings
+from shapespline.tracing.field import Field
+from shapespline.tracing.level import halfway_to_other, noise_deviation, picture_level
+from shapespline.tracing.lighting import (
+    ALONG_NOTHING,
+    BETTER,
+    evenly_lit,
+    part_along_nothing,
+)
+from shapespline.tracing.pixels import (
+    CHANNELS,
+    Channel,
+    colour_distance,
+    full_scale,
+    pixel_values,
+    rim,
+    validated_pixels,
+)
+from shapespline.tracing.threads import ink_and_threads
+from shapespline.validation import is_number
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from shapespline.typing import ArrayLike
+
+Polarity: TypeAlias = Literal["auto", "dark", "light"]
+Local: TypeAlias = float | Literal["auto", "off"]
+
+POLARITIES = ("auto", "dark", "light")
+
+
+@dataclass(frozen=True)
+class Seeing:
+    """How a picture is looked at; as in :func:`shapespline.tracing.trace_image`."""
+
+    level: float | None = None
+    polarity: Polarity = "auto"
+    channel: Channel = "auto"
+    color: str | None = None
+    invert: bool = False
+    local: Local = "auto"
+    blur: float | None = None
+    crop: str | Sequence[int] | None = None
+
+    def __post_init__(self) -> None:
+        checked_choice("polarity", self.polarity, POLARITIES)
+        checked_choice("channel", self.channel, CHANNELS)
+        if self.color is not None and (self.channel != "auto" or self.polarity != "auto"):
+            raise InvalidInputError("color excludes channel and polarity: give one way to see ink")
+        if self.blur is not None and not (is_number(self.blur) and 0 <= self.blur < np.inf):
+            raise InvalidInputError(
+                f"blur must be a number of pixels, at least 0, got {self.blur!r}"
+            )
+        if self.local not in ("auto", "off") and not is_number(self.local):
+            raise InvalidInputError(
+                f"local must be auto, off or a window in pixels, got {self.local!r}"
+            )
+        if self.level is not None and is_number(self.local):
+            raise InvalidInputError("level is one for the whole picture: leave out local, or level")
+
+    def field(self, image: ArrayLike) -> tuple[Field, Crossings]:
+        """The picture as ink and ground, and the border between them.
+
+        A warning tells if the level was found to have to follow the light.
+        """
+        pixels = cropped(validated_pixels(image), self.crop)
+        values, light, differs = self._values(pixels)
+        if is_number(self.local):
+            field = cut_field(evenly_lit(values, light, float(self.local)), light)
+            return field, crossings(field, ink_and_threads(field))
+        level = self.level
+        if self.color is not None and level is None and not self.blur:
+            level = halfway_to_other(values, full_scale(pixels))
+        field = cut_field(values, light, level)
+        found = crossings(field, ink_and_threads(field))
+        if self.local == "off" or self.level is not None or differs:
+            return field, found
+        astray = part_along_nothing(field, found)
+        if astray <= ALONG_NOTHING:
+            return field, found
+        # Where the light falls off, the rim does not show what the ground is.
+        told = self.polarity != "auto"
+        best, least = (field, found), min(BETTER * astray, ALONG_NOTHING)
+        edges = BETTER * (1 - astray) * len(found.row)
+        for ink in (light,) if told else (light, not light):
+            even = cut_field(evenly_lit(values, ink), ink)
+            found_even = crossings(even, ink_and_threads(even))
+            left = part_along_nothing(even, found_even)
+            if left <= least and (1 - left) * len(found_even.row) >= edges:
+                best, least = (even, found_even), left
+        if best[0] is field:
+            return best
+        warnings.warn(
+            "the ground is unevenly lit, so the level follows it:"
+            " --local off (local='off') cuts at one level",
+            PictureWarning,
+            stacklevel=3,
+        )
+        return best
+
+    def _values(self, pixels: NDArray[Any]) -> tuple[NDArray[Any], bool, bool]:
+        """One value for each pixel, whether ink is light, and whether it differs from a colour."""
+        if self.color is not None:
+            values, light, is_difference = colour_distance(pixels, self.color), False, True
+        else:
+            lightness = self.level is not None or self.polarity != "auto"
+            values, is_difference = pixel_values(pixels, self.channel, lightness=lightness)
+            if self.polarity == "auto":
+                cut = picture_level(values, self.level).cut
+                light = is_difference or float(np.median(rim(values))) < cut
+            else:
+                light = self.polarity == "light"
+        if self.blur:
+            from scipy.ndimage import gaussian_filter
+
+            values = gaussian_filter(values.astype(np.float64), self.blur, mode="nearest")
+        return values, light != self.invert, is_difference
+
+
+def cut_field(values: NDArray[Any], light: bool, level: float | None = None) -> Field:
+    """Values cut where ink and ground part."""
+    found = picture_level(values, level)
+    contrast = found.light - found.dark
+    return Field(values, found.cut, light, contrast, noise_deviation(values, contrast) / contrast)
+
+
+def cropped(pixels: NDArray[Any], crop: str | Sequence[int] | None) -> NDArray[Any]:
+    """A part of a picture, given by column and row of its upper left pixel, width and height.
+
+    Examples
+    --------
+    >>> cropped(np.arange(12).reshape(3, 4), "1,0,2,2").tolist()
+    [[1, 2], [5, 6]]
+    """
+    if crop is None:
+        return pixels
+    expected = f"crop must be column,row,width,height in whole pixels, got {crop!r}"
+    try:
+        given = [int(part) for part in (crop.split(",") if isinstance(crop, str) else crop)]
+        x, y, width, height = given
+    except (TypeError, ValueError):
+        raise InvalidInputError(expected) from None
+    rows, columns = pixels.shape[:2]
+    if width < 1 or height < 1 or x < 0 or y < 0 or x + width > columns or y + height > rows:
+        raise InvalidInputError(
+            f"crop {x},{y},{width},{height} does not lie within the picture of {columns} x {rows}"
+        )
+    return pixels[y : y + height, x : x + width]
+
+
+def checked_choice(name: str, value: str, choices: tuple[str, ...]) -> None:
+    """Raise unless the value is one of the choices."""
+    if value not in choices:
+        raise InvalidInputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")

@@ -1,0 +1,89 @@
+"""Edges, strokes and corners lie where they were drawn, not where a level line leaves them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.support.rendering import SAMPLES, coverage, dark, polygon, strip
+
+from shapespline.tracing import trace_image
+
+# Rounding to 8 bits moves each of some five pixels across an edge by 1/2 of 255, and counting
+# samples moves the edge by half of their distance at most.
+ROUNDING = 5 * 0.5 / 255 + 0.5 / SAMPLES
+
+
+@pytest.mark.parametrize("angle", [0.0, 1.0, 5.0, 12.0, 22.0, 35.0, 45.0, 80.0])
+def test_a_straight_edge_is_exact_where_its_level_line_is_not(angle):
+    normal = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    middle = np.array([30.3, 29.9])
+    image = dark(
+        coverage(lambda x, y: (x - 30.3) * normal[0] + (y - 29.9) * normal[1] <= 0, 60, 60)
+    )
+    contour = trace_image(image, polarity="dark").longest
+    inner = np.abs(contour.points - 30).max(axis=1) < 22
+    off = (contour.points[inner] - middle) @ normal
+    assert np.abs(off).max() <= ROUNDING
+    line = contour.level_line[np.abs(contour.level_line - 30).max(axis=1) < 22]
+    assert np.abs((line - middle) @ normal).max() > ROUNDING
+    assert contour.accuracy == 0.02
+
+
+@pytest.mark.parametrize("width", [1.0, 1.3, 1.7, 2.0])
+@pytest.mark.parametrize("angle", [0.0, 3.0, 17.0, 90.0])
+@pytest.mark.parametrize("shift", [0.0, 0.25, 0.5])
+def test_a_thin_stroke_is_whole_and_as_wide_as_it_was_drawn(width, angle, shift):
+    middle = np.array([30 + shift, 30 + shift])
+    image = dark(coverage(strip(angle, width, middle), 60, 60))
+    image = np.pad(image, ((0, 9), (0, 0)), constant_values=255)
+    image[63:67, 5:55] = 0  # what ink is where it covers a pixel
+    contour = trace_image(image, polarity="dark").longest
+    middle[1] += 9
+    normal = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    inner = contour.points[np.abs(contour.points - (30, 39)).max(axis=1) < 22]
+    off = (inner - middle) @ normal
+    assert off.min() < 0 < off.max()
+    # Of a stroke at an angle the two sides are told apart by their common border: twice as rough.
+    assert np.abs(np.abs(off) - 0.5 * width).max() <= 2 * ROUNDING + 0.02
+
+
+def test_corners_are_put_back():
+    corners = np.array([(12.3, 10.7), (50.1, 15.2), (46.4, 48.8), (20.2, 40.6)])
+    (contour,) = trace_image(dark(coverage(polygon(corners), 60, 60)))
+    distance = np.hypot(*(contour.points[:, None] - corners).transpose(2, 0, 1)).min(axis=0)
+    assert distance.max() <= 0.06
+    cut = np.hypot(*(contour.level_line[:, None] - corners).transpose(2, 0, 1)).min(axis=0)
+    assert cut.min() > 0.1
+
+
+def test_a_rounding_of_two_pixels_stays_round():
+    def inside(x, y):
+        dx, dy = np.maximum(np.abs(x - 30) - 13, 0), np.maximum(np.abs(y - 30) - 13, 0)
+        return np.hypot(dx, dy) <= 2
+
+    (contour,) = trace_image(dark(coverage(inside, 60, 60)))
+    # The corner of the square around it is (sqrt(2) - 1) 2 = 0.83 outside.
+    beyond = np.abs(contour.points - 30) - 13
+    rounded = (beyond > 0).all(axis=1)
+    assert np.hypot(*beyond[rounded].T).max() <= 2 + 0.1
+
+
+def test_a_rectangle_on_the_pixel_grid_is_exact():
+    image = np.full((30, 40), 255, dtype=np.uint8)
+    image[5:20, 10:30] = 0
+    (contour,) = trace_image(image)
+    assert contour.accuracy == 0.02
+    corners = {(10.0, 10.0), (30.0, 10.0), (30.0, 25.0), (10.0, 25.0)}
+    assert corners <= {tuple(point) for point in contour.points.tolist()}
+    on_edge = (np.isin(contour.points[:, 0], (10, 30))) | (np.isin(contour.points[:, 1], (10, 25)))
+    assert on_edge.all()
+
+
+@pytest.mark.parametrize("noise", [8.0, 20.0])
+def test_in_noise_the_level_line_stays(noise):
+    rng = np.random.default_rng(3)
+    image = 205 - 150 * coverage(lambda x, y: np.hypot(x - 30, y - 30) <= 18, 60, 60)
+    image = np.rint(np.clip(image + rng.normal(0, noise, image.shape), 0, 255)).astype(np.uint8)
+    contour = trace_image(image, min_area=20, local="off").longest
+    assert contour.accuracy == 0.07
+    assert np.array_equal(contour.points, contour.level_line)

@@ -1,0 +1,92 @@
+"""What was drawn stays, what noise makes goes, and what went is told."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PIL import Image
+from tests.support.rendering import coverage, dark, word
+
+import shapespline as ss
+from shapespline.errors import DegenerateContourError, PictureWarning
+from shapespline.tracing import trace_image
+
+
+def parts_and_holes(shape):
+    holes = sum(shape.is_hole(index) for index in range(len(shape)))
+    return len(shape) - holes, holes
+
+
+@pytest.mark.parametrize("corner", [(600.0, 400.0), (600.3, 400.7), (600.5, 400.5)])
+def test_a_dot_of_two_pixels_stays_in_a_large_picture(corner):
+    def inside(x, y):
+        dot = (x >= corner[0]) & (x < corner[0] + 2) & (y >= corner[1]) & (y < corner[1] + 2)
+        return dot | (np.hypot(x - 610, y - 395) < 3)
+
+    cover = np.zeros((800, 1200))
+    cover[380:420, 590:630] = coverage(lambda x, y: inside(x + 590, y + 380), 40, 40)
+    shape = trace_image(dark(cover))
+    assert len(shape) == 2
+    assert shape.left_out == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "height", "expected"),
+    [("jäger & söhne", 16, (16, 6)), ("Größe: 36 %", 24, (14, 5)), ("fig. 8a-e", 12, (9, 5))],
+)
+def test_small_letters_keep_their_dots_and_counters(text, height, expected):
+    assert parts_and_holes(trace_image(word(text, height))) == expected
+    # On a large sheet just as well.
+    sheet = np.full((900, 1400), 255, dtype=np.uint8)
+    letters = word(text, height)
+    sheet[300 : 300 + letters.shape[0], 200 : 200 + letters.shape[1]] = letters
+    assert parts_and_holes(trace_image(sheet)) == expected
+
+
+def test_grain_goes_and_is_counted():
+    rng = np.random.default_rng(7)
+    ramp = np.linspace(60, 200, 300)[None, :] * np.ones((200, 1))  # passes the level slowly
+    image = np.where(coverage(lambda x, y: np.hypot(x - 40, y - 40) < 20, 200, 300) > 0.5, 20, ramp)
+    image = np.rint(np.clip(image + rng.normal(0, 6, image.shape), 0, 255)).astype(np.uint8)
+    with pytest.warns(PictureWarning, match=r"specks below \d+ square pixels? left out"):
+        shape = trace_image(image, local="off")
+    everything = trace_image(image, local="off", min_area=0)
+    assert len(everything) > 50
+    assert len(shape) < 8
+    assert len(shape.left_out) == len(everything) - len(shape)
+    assert everything.left_out == ()
+
+
+def test_what_a_given_area_leaves_out_is_listed_too():
+    image = np.zeros((100, 100), dtype=np.uint8)
+    image[20:60, 20:60] = 255
+    image[80:84, 80:84] = 255
+    shape = trace_image(image, min_area=100)
+    assert len(shape) == len(shape.left_out) == 1
+    assert shape.left_out[0].points.mean(axis=0) == pytest.approx([82, 18])
+
+
+@pytest.mark.parametrize("size", [60, 1200])
+def test_pure_noise_ends_in_a_sentence(size):
+    image = np.random.default_rng(1).integers(0, 256, (size, size)).astype(np.uint8)
+    if size == 1200:
+        with pytest.raises(DegenerateContourError, match="noise"):
+            trace_image(image)
+        with pytest.raises(DegenerateContourError, match="noise"):
+            trace_image(image, min_area=0)
+    else:  # a small one is traced if that is wanted
+        assert len(trace_image(image, min_area=0)) > 100
+
+
+def test_what_was_left_out_is_drawn_on_request(shapespline, tmp_path):
+    image = np.zeros((100, 100), dtype=np.uint8)
+    image[20:60, 20:60] = 255
+    image[80:84, 80:84] = 255
+    picture, output = tmp_path / "two.png", tmp_path / "noise.svg"
+    Image.fromarray(image).save(picture)
+    assert shapespline("trace", picture, "--min-area", 99, "--left-out", "-o", output)[0] == 0
+    (found,) = ss.read(output)
+    assert found.contour.points.mean(axis=0) == pytest.approx([82, 18])
+    code, _, err = shapespline("trace", picture, "--left-out", "-o", output)
+    assert code == 1
+    assert "nothing was left out" in err
