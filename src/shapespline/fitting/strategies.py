@@ -117,6 +117,8 @@ class Lines:
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
         """One curve, or none."""
         lines, closed = search_lines(problem.thinned), problem.contour.closed
+        if not lines:  # a way back to its first point, all within the tolerance of it
+            return
         drawn = n_points_of(lines) + (not closed) < self.fewer_than
         if self.needed or (drawn and drawn_with_lines(lines, closed)):
             yield _of_pieces(problem, lines, LINES)

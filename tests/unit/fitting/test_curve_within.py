@@ -125,3 +125,11 @@ def test_no_facets_where_a_smooth_curve_is_no_larger():
     # Who names corners gets them.
     named = fit_curve(contour, tolerance=0.2, corners=[20, 40])
     assert named.sections
+
+
+@pytest.mark.parametrize("tolerance", [0.01, 1.0, 100.0])
+def test_a_way_back_to_its_first_point_is_a_curve_however_small(tolerance):
+    points = [(0.0, 0.0), (0.3, -0.9), (0.6, -0.7), (0.9, 0.1), (0.0, 0.0)]
+    fit = fit_curve(points, closed=False, tolerance=tolerance, ends="fixed")
+    assert fit.kept
+    assert fit.control_points[[0, -1]].tolist() == [[0.0, 0.0], [0.0, 0.0]]
