@@ -29,9 +29,9 @@ extensions = [
     "numpydoc",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
-    "sphinx.ext.mathjax",
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
+    "sphinx-mathjax-offline",
 ]
 exclude_patterns = ["gallery", "_generated/gallery/*.ipynb"]
 myst_enable_extensions = ["colon_fence", "dollarmath"]
@@ -45,6 +45,8 @@ html_theme_options = {
     "footer_start": ["copyright"],
     "footer_end": [],
 }
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_sidebars = {"index": []}
 html_show_sourcelink = False
 

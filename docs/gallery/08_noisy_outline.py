@@ -15,7 +15,7 @@ fit = ss.fit_curve(points, closed=True)
 
 whole, part = panels(2)
 for axes in (whole, part):
-    dots(axes, points, 4)
+    dots(axes, points, 4 if axes is whole else 8)
     curves(axes, [fit], points=axes is whole)
 x, y = points[200]
 part.set(xlim=(x - 8, x + 8), ylim=(y - 8, y + 8))

@@ -104,7 +104,7 @@ def run() -> int:
 def _exit_code() -> int:
     """Run the command; every error that a user can cause is one line on standard error."""
     try:
-        result = app(standalone_mode=False)
+        result = app(prog_name="shapespline", standalone_mode=False)
     except (ss.ShapesplineError, OSError, MemoryError) as error:
         say(error)
         return 1

@@ -321,7 +321,7 @@ def _parameters(group: type[Any]) -> list[inspect.Parameter]:
 Inputs = Annotated[
     list[str],
     typer.Argument(
-        metavar="INPUT...",
+        metavar="INPUT",
         help="Files, folders or patterns: outlines (CSV, TXT, NPY), pictures (PNG, JPEG, TIFF,"
         " BMP), drawings (SVG, DXF, JSON and more); - for standard input.",
         show_default=False,

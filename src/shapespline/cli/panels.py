@@ -14,7 +14,7 @@ PANELS = (INPUT, PICTURE, FIT, OUTPUT, RUN)
 OTHERS = "Others"
 
 UNITS = (
-    "Lengths are in the unit of the data: pixels of a picture, --unit where it is given.",
+    "Lengths are in the unit of the data: pixels of a picture, or --unit.",
     "A tolerance of 0.1% is a part of the diagonal of the bounding box.",
 )
 EXIT_CODES = (
