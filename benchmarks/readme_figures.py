@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -47,6 +52,17 @@ def shown(axes: Axes, drawing: ss.Drawing, *, filled: bool = False) -> None:
             Path2D(np.vstack(outline), np.concatenate(codes)), fc=BLUE, ec="none", alpha=0.13
         )
         axes.add_patch(area)
+
+
+def from_readme() -> None:
+    """The picture that the lines of Python in README.md draw."""
+    page = (ROOT / "README.md").read_text(encoding="utf-8")
+    code = page.split("```python\n")[1].split("```")[0]
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "examples").symlink_to(ROOT / "examples")
+        command = [sys.executable, "-c", code]
+        subprocess.run(command, cwd=folder, env={**os.environ, "MPLBACKEND": "agg"}, check=True)
+        shutil.copy(Path(folder, "dove.png"), TARGET)
 
 
 def hero() -> None:
@@ -166,6 +182,7 @@ def by_tolerance() -> None:
 if __name__ == "__main__":
     TARGET.mkdir(parents=True, exist_ok=True)
     hero()
+    from_readme()
     from_pictures()
     by_count()
     by_tolerance()

@@ -3,6 +3,7 @@
 import json
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -42,14 +43,23 @@ def test_two_inputs_of_one_name_are_not_written_over_each_other(shapespline, des
     assert not (desk / "logo.svg").exists()
 
 
-def test_a_tolerance_that_is_not_kept_is_exit_code_3(shapespline, tmp_path):
-    points = np.random.default_rng(3).normal(size=(300, 2))  # no curve of a nanosecond fits them
-    np.savetxt(tmp_path / "noise.csv", points, delimiter=",")
-    fitted = ("fit", tmp_path / "noise.csv", "-o", tmp_path / "noise.svg", "--form", "spline")
-    code, out, err = shapespline(*fitted, "-t", "0.01%", "--time-limit", 1e-9)
+def test_a_tolerance_that_is_not_kept_is_exit_code_3(shapespline, desk, monkeypatch):
+    fit_shape = ss.fit_shape
+
+    def missed(shape, **options):
+        (fit,) = fit_shape(shape, **options)
+        sentence = ss.Status.EXCEEDED.saying("tolerance 1e-9 not kept; take a larger one")
+        return ss.Drawing([replace(fit, tolerance=1e-9, status=sentence)])
+
+    assert shapespline("fit", "scan.csv", "-t", 0.5, "-o", "kept.svg")[0] == 0
+    monkeypatch.setattr(ss, "fit_shape", missed, raising=False)
+    code, out, err = shapespline("fit", "scan.csv", "-t", 0.5, "-o", "scan.svg")
     assert (code, out.count("\n")) == (3, 1)
-    assert "tolerance" in err
-    assert (tmp_path / "noise.svg").exists()
+    assert one_line(err)
+    assert "not kept; take a larger one" in err
+    assert (desk / "scan.svg").exists()
+    code, _, _ = shapespline("fit", "scan.csv", "none.csv", "-t", 0.5, "-o", "out", "-f", "svg")
+    assert code == 1
 
 
 def test_settings_are_saved_and_used_again(shapespline, desk):
