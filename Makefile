@@ -53,7 +53,6 @@ figures: $(READY)
 	$(BIN)/python scripts/rooms_picture.py
 
 docs: $(READY)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
 	$(BIN)/python -m sphinx -W --keep-going -q -b html -d build/docs/doctrees docs build/docs/html
 	@echo "Open build/docs/html/index.html."
 

@@ -33,6 +33,11 @@ def laid_out(folder: Path) -> Path:
     np.savetxt(folder / "cloud.csv", np.random.default_rng(0).permutation(points), delimiter=",")
     rows = [f"{index},{x!r},{y!r}" for index, (x, y) in enumerate(points[::4].tolist())]
     (folder / "table.csv").write_text("\n".join(["id,east,north", *rows]), encoding="utf-8")
+    ground = Image.new("RGB", (96, 96), "white")
+    ground.paste("#145aa0", (12, 12, 60, 80))
+    ground.paste("#c81e1e", (60, 12, 84, 80))
+    ground.paste("#e0a010", (12, 80, 84, 90))
+    ground.save(folder / "colours.png")
     (folder / "scans").mkdir()
     (folder / "scans" / "a.csv").write_bytes((folder / "scan.csv").read_bytes())
     with Image.open(folder / "leaf.png") as leaf:

@@ -11,6 +11,7 @@ import typer
 
 import shapespline as ss
 from shapespline.cli import options, settings_file
+from shapespline.cli.gathering import gathers
 from shapespline.cli.jobs import point_progress
 from shapespline.cli.panels import FIT, OUTPUT
 from shapespline.cli.places import never_the_input
@@ -142,7 +143,7 @@ class FitFile:
 
 
 # long: typer makes an option of the command of every parameter.
-@options.gathers(reading=options.Reading, writing=options.Writing)
+@gathers(reading=options.Reading, writing=options.Writing)
 def fit(
     context: typer.Context,
     sources: options.Inputs,

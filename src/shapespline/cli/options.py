@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import functools
-import inspect
 from contextlib import suppress
 from dataclasses import dataclass, fields
 from enum import StrEnum
 from math import inf
 from pathlib import Path  # noqa: TC003 - typer reads annotations
-from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -109,27 +107,38 @@ class Reading:
         ),
     ] = None
     invert: Annotated[
-        bool, typer.Option("--invert", help="Of a picture: the ground is the shape.")
+        bool,
+        typer.Option(
+            "--invert", help="Of a picture: the ground is the shape.", rich_help_panel=PICTURE
+        ),
     ] = False
     local: Annotated[
         str,
         typer.Option(
-            help="Whether the level follows uneven light: auto, off, or a window in pixels."
+            help="Whether the level follows uneven light: auto, off, or a window in pixels.",
+            rich_help_panel=PICTURE,
         ),
     ] = "auto"
     blur: Annotated[
         float | None,
-        typer.Option(help="Blur a picture before it is cut, pixels (for grain and screens)."),
+        typer.Option(
+            help="Blur a picture before it is cut, pixels (for grain and screens).",
+            rich_help_panel=PICTURE,
+        ),
     ] = None
     crop: Annotated[
         str | None,
-        typer.Option(help="The part of a picture to look at: column,row,width,height."),
+        typer.Option(
+            help="The part of a picture to look at: column,row,width,height.",
+            rich_help_panel=PICTURE,
+        ),
     ] = None
     colors: Annotated[
         str | None,
         typer.Option(
             help="Areas of so many colours of a picture, or auto, instead of ink; neighbours share"
-            " their borders."
+            " their borders.",
+            rich_help_panel=PICTURE,
         ),
     ] = None
     centerline: Annotated[
@@ -202,9 +211,11 @@ class Reading:
         given = {name: value for name, value in self.given().items() if name != "unit"}
         factor = self.width / width_of(ss.read(path, **given))
         found = ss.read(path, scale=factor, sampling=sampling, **given)
-        if isinstance(found, ss.Shape):
-            return ss.Shape(found.contours, found.parents, found.frame, self.unit)
-        return ss.Drawing(found.fits, found.parents, found.frame, self.unit)
+        parents, frame, colors = found.parents, found.frame, found.colors
+        if isinstance(found, ss.Drawing):
+            return ss.Drawing(found.fits, parents, frame, self.unit, colors=colors)
+        left_out = found.left_out
+        return ss.Shape(found.contours, parents, frame, self.unit, left_out=left_out, colors=colors)
 
     def outlines(self, path: Path, tolerance: float | str | None = None) -> Shape:
         """The outlines in the file; of a drawing those that it was fitted to.
@@ -271,51 +282,6 @@ def _given(options: Reading | Writing) -> dict[str, Any]:
         for field in fields(options)
         if values[field.name] != field.default
     }
-
-
-def gathers(**groups: type[Any]) -> Callable[[Command], Command]:
-    """Give a command the options of groups, each gathered in the argument that it is named for.
-
-    Typer builds options from a signature; the command's gets the fields of the groups in place of
-    the arguments that take them.
-    """
-
-    def decorate(command: Command) -> Command:
-        own = inspect.signature(command, eval_str=True)
-        options = {name: _parameters(group) for name, group in groups.items()}
-
-        @functools.wraps(command)
-        def gathered(**given: Any) -> Any:
-            for name, group in groups.items():
-                taken = {option.name: given.pop(option.name) for option in options[name]}
-                given[name] = group(**taken)
-            return command(**given)
-
-        parameters = [
-            parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-            for parameter in own.parameters.values()
-            if parameter.name not in groups
-        ]
-        parameters += [option for found in options.values() for option in found]
-        # Typer reads both.
-        gathered.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-        gathered.__annotations__ = {item.name: item.annotation for item in parameters}
-        return gathered
-
-    return decorate
-
-
-def _parameters(group: type[Any]) -> list[inspect.Parameter]:
-    hints = get_type_hints(group, include_extras=True)
-    return [
-        inspect.Parameter(
-            field.name,
-            inspect.Parameter.KEYWORD_ONLY,
-            default=field.default,
-            annotation=hints[field.name],
-        )
-        for field in fields(group)
-    ]
 
 
 Inputs = Annotated[
