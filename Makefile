@@ -1,6 +1,8 @@
 # Everything here sets itself up: an own virtual environment, the compiled kernel, nothing global.
 #   make demo    fit a real photograph, an icon and a measured outline; pictures and files
 #   make test    every check
+#   make docs    the documentation as a site, with its gallery
+#   make wheel   what is installed without a compiler, tried in a fresh environment
 #   make sanitize    memory and undefined behaviour in the kernel
 PYTHON ?= python3
 VENV := .venv
@@ -10,7 +12,7 @@ IMAGES := examples/data/images
 OUTLINES := examples/data/outlines
 KERNEL := $(wildcard kernels/bindings/*.[ch]pp kernels/include/shapespline/*/*.hpp)
 
-.PHONY: demo test quick sanitize lint bench paper figures clean
+.PHONY: demo test quick sanitize lint bench paper figures docs wheel clean
 .DEFAULT_GOAL := demo
 
 demo: $(READY)
@@ -50,8 +52,15 @@ figures: $(READY)
 	$(BIN)/python -m benchmarks.engine_figures
 	$(BIN)/python scripts/rooms_picture.py
 
+docs: $(READY)
+	$(BIN)/python -m sphinx -W --keep-going -q -b html -d build/docs/doctrees docs build/docs/html
+	@echo "Open build/docs/html/index.html."
+
+wheel: $(READY)
+	sh scripts/wheel.sh $(BIN)/python
+
 clean:
-	rm -rf $(VENV) build demo-output bench-output .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks
+	rm -rf $(VENV) build dist docs/_generated demo-output bench-output .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks
 
 $(READY): pyproject.toml CMakeLists.txt src/shapespline/_version.py $(KERNEL)
 	@PYTHON="$(PYTHON)" sh scripts/check_tools.sh

@@ -9,6 +9,7 @@ import typer
 
 import shapespline as ss
 from shapespline.cli import options
+from shapespline.cli.gathering import gathers
 from shapespline.cli.reports import Report, drawing_record
 from shapespline.cli.run_files import Batch, run_files
 
@@ -73,7 +74,7 @@ class ConvertFile:
         )
 
 
-@options.gathers(reading=options.Reading, writing=options.Writing)
+@gathers(reading=options.Reading, writing=options.Writing)
 def trace(
     sources: options.Inputs,
     output: options.Output,
@@ -100,7 +101,7 @@ def trace(
     )
 
 
-@options.gathers(reading=options.Reading, writing=options.Writing)
+@gathers(reading=options.Reading, writing=options.Writing)
 def convert(
     sources: options.Inputs,
     output: options.Output,

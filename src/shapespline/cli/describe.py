@@ -11,6 +11,7 @@ import typer
 
 import shapespline as ss
 from shapespline.cli import options, places
+from shapespline.cli.gathering import gathers
 from shapespline.cli.jobs import run_all
 from shapespline.cli.reports import Report, drawing_record
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from shapespline import Drawing, Shape
 
 
-@options.gathers(reading=options.Reading)
+@gathers(reading=options.Reading)
 def compare(
     first: options.Input,
     second: options.Input,
@@ -42,7 +43,7 @@ def compare(
     )
 
 
-@options.gathers(reading=options.Reading)
+@gathers(reading=options.Reading)
 def info(
     sources: options.Inputs,
     as_json: options.AsJson = False,

@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 import shapespline as ss
-from shapespline.cli import options
+from shapespline.cli import options, settings_file
+from shapespline.cli.gathering import gathers
 from shapespline.cli.jobs import point_progress
+from shapespline.cli.panels import FIT, OUTPUT
 from shapespline.cli.places import never_the_input
 from shapespline.cli.reports import Report, drawing_record, drawing_remarks, drawing_text
 from shapespline.cli.run_files import Batch, run_files
+from shapespline.cli.waiting import said_when_long
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,6 +30,8 @@ if TYPE_CHECKING:
 # that needs all points.
 LARGE_FILE = 32_000_000
 WANTED = {"tolerance", "n_control_points"}
+# Setting -> the parameter of the command, where their names differ.
+PARAMETERS = {"n_control_points": "control_points"}
 IN_PASSES = WANTED | {"degree", "corners", "form", "effort", "time_limit"}
 
 
@@ -45,37 +50,47 @@ class FitFile:
     shared_boundaries: bool
     plot: Path | None
     many: bool
+    alone: bool
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
-        large = self.mapped(source)
-        if large is None:
-            shape = self.reading.outlines(source, self.settings.tolerance)
-            began = time.perf_counter()
-            asked = self.settings.to_dict()
-            shared = self.shared_boundaries
-            if any(shape.colors):
-                shared = True
-                accuracy = shape.longest.accuracy
-                if not asked.keys() & WANTED and accuracy:
-                    asked["tolerance"] = AREA_TOLERANCE * accuracy
-            drawing = ss.fit_shape(shape, shared_boundaries=shared, **asked)
-        else:
-            began = time.perf_counter()
-            drawing = self.fitted_in_passes(large)
-        seconds = time.perf_counter() - began
-        ss.write(target, drawing, **self.writing.given())
-        picture = self.picture(source)
-        if picture is not None:
-            from shapespline.plotting import plot_fit
+        with said_when_long(self.alone) as say:
+            say(f"reading {source.name}")
+            large = self.mapped(source)
+            if large is None:
+                shape = self.reading.outlines(source, self.settings.tolerance)
+                n_points = sum(len(contour) for contour in shape)
+                say(f"fitting {len(shape)} outlines of {n_points} points; --time-limit ends it")
+                began = time.perf_counter()
+                drawing = self.fitted(shape)
+            else:
+                began = time.perf_counter()
+                drawing = self.fitted_in_passes(large)
+            seconds = time.perf_counter() - began
+            say(f"writing {target.name}")
+            ss.write(target, drawing, **self.writing.given())
+            picture = self.picture(source)
+            if picture is not None:
+                from shapespline.plotting import plot_fit
 
-            plot_fit(drawing, picture)
+                say(f"drawing {picture.name}")
+                plot_fit(drawing, picture)
         return Report(
             str(source),
             text=drawing_text(str(target), drawing, seconds),
             record={"output": str(target), "seconds": seconds, **drawing_record(drawing)},
             remarks=drawing_remarks(drawing),
+            exceeded=any(not fit.kept for fit in drawing),
         )
+
+    def fitted(self, shape: ss.Shape) -> ss.Drawing:
+        """The fit of a shape in memory; areas of colours share their boundaries."""
+        asked = self.settings.to_dict()
+        shared = self.shared_boundaries or any(shape.colors)
+        accuracy = shape.longest.accuracy
+        if any(shape.colors) and accuracy and not asked.keys() & WANTED:
+            asked["tolerance"] = AREA_TOLERANCE * accuracy
+        return ss.fit_shape(shape, shared_boundaries=shared, **asked)
 
     def mapped(self, source: Path) -> np.memmap | None:
         """The points of a file that is too large to be read at once, if there is no other need."""
@@ -128,10 +143,11 @@ class FitFile:
 
 
 # long: typer makes an option of the command of every parameter.
-@options.gathers(reading=options.Reading, writing=options.Writing)
+@gathers(reading=options.Reading, writing=options.Writing)
 def fit(
+    context: typer.Context,
     sources: options.Inputs,
-    output: options.Output,
+    output: options.OptionalOutput = None,
     ending: options.Format = None,
     tolerance: Annotated[
         str | None,
@@ -140,6 +156,7 @@ def fit(
             "-t",
             help="Largest distance between data and curve, both ways: in the unit of the data, or a"
             " part of the box diagonal such as 0.1%.",
+            rich_help_panel=FIT,
         ),
     ] = None,
     control_points: Annotated[
@@ -149,46 +166,87 @@ def fit(
             "-n",
             help="Control points of each curve (default without a tolerance: found from the"
             " noise of the points or from what they can show).",
+            rich_help_panel=FIT,
         ),
     ] = None,
     degree: options.Degree = 3,
     corners: Annotated[
         Literal["auto", "free", "none"],
-        typer.Option(help="Keep corners, be free to round them, or know none."),
+        typer.Option(
+            help="Keep corners, be free to round them, or know none.", rich_help_panel=FIT
+        ),
     ] = "auto",
     form: Annotated[
         Literal["pieces", "spline"],
-        typer.Option(help="Lines, Beziers and splines, or one spline."),
+        typer.Option(help="Lines, Beziers and splines, or one spline.", rich_help_panel=FIT),
     ] = "pieces",
     effort: Annotated[
         Literal["fast", "balanced", "smallest"],
-        typer.Option(help="How long to search for a smaller curve."),
+        typer.Option(help="How long to search for a smaller curve.", rich_help_panel=FIT),
     ] = "balanced",
     ends: Annotated[
         Literal["free", "fixed"],
-        typer.Option(help="Of open curves: fixed ends are the first and last point, exactly."),
+        typer.Option(
+            help="Of open curves: fixed ends are the first and last point, exactly.",
+            rich_help_panel=FIT,
+        ),
     ] = "free",
     symmetric: Annotated[
-        bool, typer.Option("--symmetric", help="Keep a mirror symmetry of closed outlines exactly.")
+        bool,
+        typer.Option(
+            "--symmetric",
+            help="Keep a mirror symmetry of closed outlines exactly.",
+            rich_help_panel=FIT,
+        ),
     ] = False,
     outliers: Annotated[
-        bool, typer.Option("--outliers", help="Leave out points that jump off the path and back.")
+        bool,
+        typer.Option(
+            "--outliers",
+            help="Leave out points that jump off the path and back.",
+            rich_help_panel=FIT,
+        ),
     ] = False,
     shared_boundaries: Annotated[
         bool,
-        typer.Option("--shared-boundaries", help="Boundaries of two outlines are fitted once."),
+        typer.Option(
+            "--shared-boundaries",
+            help="Boundaries of two outlines are fitted once.",
+            rich_help_panel=FIT,
+        ),
     ] = False,
     time_limit: Annotated[
         float | None,
-        typer.Option(help="Seconds for each curve; the best one so far is written after them."),
+        typer.Option(
+            help="Seconds for each curve; the best one so far is written after them.",
+            rich_help_panel=FIT,
+        ),
     ] = None,
     plot: Annotated[
         Path | None,
         typer.Option(
             help="Also draw data, control polygon, curve and error as a PNG picture; a folder for"
-            " many inputs."
+            " many inputs.",
+            rich_help_panel=OUTPUT,
         ),
     ] = None,
+    settings_path: Annotated[
+        Path | None,
+        typer.Option(
+            "--settings",
+            help="Settings of the fit from a TOML or JSON file; what is typed goes before it.",
+            rich_help_panel=FIT,
+        ),
+    ] = None,
+    save_settings: Annotated[
+        Path | None,
+        typer.Option(
+            "--save-settings",
+            help="Write the settings of this fit to a file.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    force: options.Force = False,
     jobs: options.Jobs = 1,
     scheduler: options.Scheduler = None,
     resume: options.Resume = False,
@@ -200,26 +258,55 @@ def fit(
 ) -> None:
     """Fit B-spline curves to the outlines of every INPUT and write them to files."""
     batch = Batch(
-        sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
+        sources,
+        output,
+        ending,
+        stdin_format,
+        as_json,
+        jobs,
+        scheduler,
+        resume,
+        writing.given(),
+        force,
     )
     from shapespline.fitting import Settings
 
-    settings = Settings(
-        tolerance=tolerance,
-        n_control_points=control_points,
-        degree=degree,
-        corners=None if corners == "none" else corners,
-        form=form,
-        effort=effort,
-        ends=ends,
-        symmetric=symmetric,
-        outliers=outliers,
-        time_limit=time_limit,
-    )
+    asked = {
+        "tolerance": tolerance,
+        "n_control_points": control_points,
+        "degree": degree,
+        "corners": None if corners == "none" else corners,
+        "form": form,
+        "effort": effort,
+        "ends": ends,
+        "symmetric": symmetric,
+        "outliers": outliers,
+        "time_limit": time_limit,
+    }
+    if settings_path is not None:
+        typed = {name: value for name, value in asked.items() if _typed(context, name)}
+        asked = settings_file.merged(settings_file.load(settings_path), typed)
+    settings = Settings.from_dict(asked)
+    if save_settings is not None:
+        settings_file.save(save_settings, settings)
 
     def work_on(found: Sequence[Path]) -> FitFile:
-        work = FitFile(reading, writing, settings, shared_boundaries, plot, many=len(found) > 1)
+        work = FitFile(
+            reading,
+            writing,
+            settings,
+            shared_boundaries,
+            plot,
+            many=len(found) > 1,
+            alone=len(found) == 1,
+        )
         work.check(found)
         return work
 
     run_files(work_on, batch)
+
+
+def _typed(context: typer.Context, setting: str) -> bool:
+    """Whether a setting was given on the command line, be it its default."""
+    source = context.get_parameter_source(PARAMETERS.get(setting, setting))
+    return source is not None and source.name == "COMMANDLINE"

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import functools
-import inspect
 from contextlib import suppress
 from dataclasses import dataclass, fields
 from enum import StrEnum
+from math import inf
 from pathlib import Path  # noqa: TC003 - typer reads annotations
-from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 import shapespline as ss
+from shapespline.cli.panels import FIT, INPUT, OUTPUT, PICTURE, RUN
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -59,87 +59,163 @@ class Reading:
 
     closed: Annotated[
         bool | None,
-        typer.Option("--closed/--open", help="Whether the outline is closed (default: found)."),
+        typer.Option(
+            "--closed/--open",
+            help="Whether the outline is closed (default: found).",
+            rich_help_panel=INPUT,
+        ),
     ] = None
     y_down: Annotated[
-        bool, typer.Option("--y-down", help="The y axis of the outline file runs down (CSV, NPY).")
+        bool,
+        typer.Option(
+            "--y-down",
+            help="The y axis of the outline file runs down (CSV, NPY).",
+            rich_help_panel=INPUT,
+        ),
     ] = False
     unordered: Annotated[
         bool,
-        typer.Option("--unordered", help="The points of the file are in no order: find it."),
+        typer.Option(
+            "--unordered",
+            help="The points of the file are in no order: find it.",
+            rich_help_panel=INPUT,
+        ),
     ] = False
     level: Annotated[
         float | None,
-        typer.Option(help="Grey level between shape and ground of a picture (default: Otsu)."),
+        typer.Option(
+            help="Grey level between shape and ground of a picture (default: Otsu).",
+            rich_help_panel=PICTURE,
+        ),
     ] = None
     polarity: Annotated[
-        Polarity, typer.Option(help="Dark shapes on light ground, or light on dark.")
+        Polarity,
+        typer.Option(
+            help="Dark shapes on light ground, or light on dark.", rich_help_panel=PICTURE
+        ),
     ] = Polarity.auto
-    channel: Annotated[Channel, typer.Option(help="What is cut at the level in a picture.")] = (
-        Channel.auto
-    )
+    channel: Annotated[
+        Channel,
+        typer.Option(help="What is cut at the level in a picture.", rich_help_panel=PICTURE),
+    ] = Channel.auto
     color: Annotated[
         str | None,
         typer.Option(
             help="The shape of a picture is what has this colour: #ff8800, red, or @column,row of a"
-            " pixel."
+            " pixel.",
+            rich_help_panel=PICTURE,
         ),
     ] = None
     invert: Annotated[
-        bool, typer.Option("--invert", help="Of a picture: the ground is the shape.")
+        bool,
+        typer.Option(
+            "--invert", help="Of a picture: the ground is the shape.", rich_help_panel=PICTURE
+        ),
     ] = False
     local: Annotated[
         str,
         typer.Option(
-            help="Whether the level follows uneven light: auto, off, or a window in pixels."
+            help="Whether the level follows uneven light: auto, off, or a window in pixels.",
+            rich_help_panel=PICTURE,
         ),
     ] = "auto"
     blur: Annotated[
         float | None,
-        typer.Option(help="Blur a picture before it is cut, pixels (for grain and screens)."),
+        typer.Option(
+            help="Blur a picture before it is cut, pixels (for grain and screens).",
+            rich_help_panel=PICTURE,
+        ),
     ] = None
     crop: Annotated[
         str | None,
-        typer.Option(help="The part of a picture to look at: column,row,width,height."),
+        typer.Option(
+            help="The part of a picture to look at: column,row,width,height.",
+            rich_help_panel=PICTURE,
+        ),
     ] = None
     colors: Annotated[
         str | None,
         typer.Option(
             help="Areas of so many colours of a picture, or auto, instead of ink; neighbours share"
-            " their borders."
+            " their borders.",
+            rich_help_panel=PICTURE,
         ),
     ] = None
     centerline: Annotated[
-        bool, typer.Option("--centerline", help="Centre lines of strokes, not their outlines.")
+        bool,
+        typer.Option(
+            "--centerline",
+            help="Centre lines of strokes, not their outlines.",
+            rich_help_panel=PICTURE,
+        ),
     ] = False
     contours: Annotated[
-        Selection, typer.Option(help="Outlines of a picture: all, or the longest.")
+        Selection,
+        typer.Option(help="Outlines of a picture: all, or the longest.", rich_help_panel=PICTURE),
     ] = Selection.all
     min_area: Annotated[
-        float | None, typer.Option(help="Smallest outline of a picture, square pixels.")
+        float | None,
+        typer.Option(help="Smallest outline of a picture, square pixels.", rich_help_panel=PICTURE),
     ] = None
     unit: Annotated[
         str | None,
         typer.Option(
             help="Unit to work in, such as mm or in: numbers are converted if the file says its"
-            " unit, else they are in this one."
+            " unit, else they are in this one.",
+            rich_help_panel=INPUT,
         ),
     ] = None
     scale: Annotated[
         float | None,
-        typer.Option(help="Factor for all numbers; of a picture, the units that a pixel measures."),
+        typer.Option(
+            help="Factor for all numbers; of a picture, the units that a pixel measures.",
+            rich_help_panel=INPUT,
+        ),
     ] = None
     dpi: Annotated[
-        float | None, typer.Option(help="Pixels per inch, of pictures (unit: mm if none is named).")
+        float | None,
+        typer.Option(
+            help="Pixels per inch, of pictures (unit: mm if none is named).",
+            rich_help_panel=PICTURE,
+        ),
+    ] = None
+
+    width: Annotated[
+        float | None,
+        typer.Option(
+            help="Width of all outlines together, in the --unit, whatever numbers the file holds.",
+            rich_help_panel=INPUT,
+        ),
+    ] = None
+    columns: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y",
+            help="Columns of a table that hold x and y, by name or number from 1, such as 2,3.",
+            rich_help_panel=INPUT,
+        ),
     ] = None
 
     def given(self) -> dict[str, Any]:
         """Those that were given, as options of `shapespline.read`."""
-        return _given(self)
+        return {name: value for name, value in _given(self).items() if name != "width"}
 
     def read(self, path: Path, sampling: float | None = None) -> Shape | Drawing:
         """What the file holds."""
-        return ss.read(path, sampling=sampling, **self.given())
+        if self.width is None:
+            return ss.read(path, sampling=sampling, **self.given())
+        if self.scale is not None or self.dpi is not None:
+            raise ss.InvalidInputError("--width, --scale and --dpi exclude each other: give one")
+        if not 0 < self.width < inf:
+            raise ss.InvalidInputError(f"--width must be a positive number, got {self.width:g}")
+        given = {name: value for name, value in self.given().items() if name != "unit"}
+        factor = self.width / width_of(ss.read(path, **given))
+        found = ss.read(path, scale=factor, sampling=sampling, **given)
+        parents, frame, colors = found.parents, found.frame, found.colors
+        if isinstance(found, ss.Drawing):
+            return ss.Drawing(found.fits, parents, frame, self.unit, colors=colors)
+        left_out = found.left_out
+        return ss.Shape(found.contours, parents, frame, self.unit, left_out=left_out, colors=colors)
 
     def outlines(self, path: Path, tolerance: float | str | None = None) -> Shape:
         """The outlines in the file; of a drawing those that it was fitted to.
@@ -162,23 +238,41 @@ class Writing:
 
     arcs: Annotated[
         bool,
-        typer.Option("--arcs", help="DXF as lines and arcs, for machines that read no splines."),
+        typer.Option(
+            "--arcs",
+            help="DXF as lines and arcs, for machines that read no splines.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = False
     arc_tolerance: Annotated[
         float | None,
         typer.Option(
             help="Largest distance of the arcs to the curve, on top of the tolerance of the fit"
-            " (default: a quarter of it)."
+            " (default: a quarter of it).",
+            rich_help_panel=OUTPUT,
         ),
     ] = None
     chord: Annotated[
         float | None,
-        typer.Option(help="Largest distance between curve and polyline (CSV, GeoJSON), data unit."),
+        typer.Option(
+            help="Largest distance between curve and polyline (CSV, GeoJSON), data unit.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None
 
     def given(self) -> dict[str, Any]:
         """Those that were given, as options of `shapespline.write`."""
         return _given(self)
+
+
+def width_of(held: Shape | Drawing) -> float:
+    """Extent in x of all outlines together."""
+    contours = list(held) if isinstance(held, ss.Shape) else [fit.contour for fit in held]
+    low = min(contour.points[:, 0].min() for contour in contours)
+    high = max(contour.points[:, 0].max() for contour in contours)
+    if not high > low:
+        raise ss.InvalidInputError("--width needs outlines that are not a vertical line")
+    return float(high - low)
 
 
 def _given(options: Reading | Writing) -> dict[str, Any]:
@@ -190,90 +284,86 @@ def _given(options: Reading | Writing) -> dict[str, Any]:
     }
 
 
-def gathers(**groups: type[Any]) -> Callable[[Command], Command]:
-    """Give a command the options of groups, each gathered in the argument that it is named for.
-
-    Typer builds options from a signature; the command's gets the fields of the groups in place of
-    the arguments that take them.
-    """
-
-    def decorate(command: Command) -> Command:
-        own = inspect.signature(command, eval_str=True)
-        options = {name: _parameters(group) for name, group in groups.items()}
-
-        @functools.wraps(command)
-        def gathered(**given: Any) -> Any:
-            for name, group in groups.items():
-                taken = {option.name: given.pop(option.name) for option in options[name]}
-                given[name] = group(**taken)
-            return command(**given)
-
-        parameters = [
-            parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-            for parameter in own.parameters.values()
-            if parameter.name not in groups
-        ]
-        parameters += [option for found in options.values() for option in found]
-        # Typer reads both.
-        gathered.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-        gathered.__annotations__ = {item.name: item.annotation for item in parameters}
-        return gathered
-
-    return decorate
-
-
-def _parameters(group: type[Any]) -> list[inspect.Parameter]:
-    hints = get_type_hints(group, include_extras=True)
-    return [
-        inspect.Parameter(
-            field.name,
-            inspect.Parameter.KEYWORD_ONLY,
-            default=field.default,
-            annotation=hints[field.name],
-        )
-        for field in fields(group)
-    ]
-
-
 Inputs = Annotated[
     list[str],
     typer.Argument(
-        metavar="INPUT...",
+        metavar="INPUT",
         help="Files, folders or patterns: outlines (CSV, TXT, NPY), pictures (PNG, JPEG, TIFF,"
         " BMP), drawings (SVG, DXF, JSON and more); - for standard input.",
         show_default=False,
+        rich_help_panel=INPUT,
     ),
 ]
-Input = Annotated[str, typer.Argument(metavar="INPUT", help="A file; - for standard input.")]
+Input = Annotated[
+    str,
+    typer.Argument(metavar="INPUT", help="A file; - for standard input.", rich_help_panel=INPUT),
+]
+Force = Annotated[
+    bool,
+    typer.Option(
+        "--force", help="Replace a file that exists beside the input.", rich_help_panel=OUTPUT
+    ),
+]
+OptionalOutput = Annotated[
+    str | None,
+    typer.Option(
+        "--output",
+        "-o",
+        help="File to write, its format told by its ending, or a folder for many; - for standard"
+        " output (default: an SVG beside the input).",
+        rich_help_panel=OUTPUT,
+    ),
+]
 Output = Annotated[
     str,
     typer.Option(
         "--output",
         "-o",
         help="File to write, or a folder for many; - for standard output.",
+        rich_help_panel=OUTPUT,
     ),
 ]
 Format = Annotated[
     str | None,
     typer.Option(
-        "--format", "-f", help="Ending of the files to write into a folder or standard output."
+        "--format",
+        "-f",
+        help="Ending of the files to write into a folder or standard output.",
+        rich_help_panel=OUTPUT,
     ),
 ]
 StdinFormat = Annotated[
-    str, typer.Option("--stdin-format", help="Ending that standard input would have as a file.")
+    str,
+    typer.Option(
+        "--stdin-format",
+        help="Ending that standard input would have as a file.",
+        rich_help_panel=INPUT,
+    ),
 ]
 Jobs = Annotated[
-    int, typer.Option("--jobs", "-j", min=1, help="Files to work on at the same time.")
+    int,
+    typer.Option(
+        "--jobs", "-j", min=1, help="Files to work on at the same time.", rich_help_panel=RUN
+    ),
 ]
 Scheduler = Annotated[
     str | None,
-    typer.Option(help="Address of a dask scheduler to work on, such as tcp://host:8786."),
+    typer.Option(
+        help="Address of a dask scheduler to work on, such as tcp://host:8786.", rich_help_panel=RUN
+    ),
 ]
 Resume = Annotated[
     bool,
-    typer.Option("--resume", help="Skip inputs whose output is there and newer than they are."),
+    typer.Option(
+        "--resume",
+        help="Skip inputs whose output is there and newer than they are.",
+        rich_help_panel=RUN,
+    ),
 ]
 AsJson = Annotated[
-    bool, typer.Option("--json", help="Print one line of JSON for each input, for scripts.")
+    bool,
+    typer.Option(
+        "--json", help="Print one line of JSON for each input, for scripts.", rich_help_panel=OUTPUT
+    ),
 ]
-Degree = Annotated[int, typer.Option(help="Degree of the curve, 1 to 9.")]
+Degree = Annotated[int, typer.Option(help="Degree of the curve, 1 to 9.", rich_help_panel=FIT)]

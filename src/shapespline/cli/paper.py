@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from shapespline.cli import options
+from shapespline.cli.gathering import gathers
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ class Method:
     degree: options.Degree = 3
 
 
-@options.gathers(how=Method, source=options.Reading)
+@gathers(how=Method, source=options.Reading)
 def paper(
     path: options.Input,
     output: Annotated[

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import glob
+import re
 import shutil
 import sys
 import tempfile
@@ -17,6 +18,10 @@ if TYPE_CHECKING:
 
 # Stands for standard input, or standard output.
 STREAM = "-"
+# Of a result whose name was not given: every browser and drawing program opens it.
+DEFAULT_ENDING = "svg"
+# Begins the names of the files in which standard streams are kept; no message names them.
+STREAM_FILE = "shapespline-stream"
 
 
 def inputs(given: Sequence[str]) -> list[Path]:
@@ -45,6 +50,33 @@ def inputs(given: Sequence[str]) -> list[Path]:
         else:
             found[path] = None
     return list(found)
+
+
+def beside(
+    sources: Sequence[Path],
+    ending: str | None,
+    writing: Mapping[str, object],
+    *,
+    force: bool,
+    resume: bool,
+) -> list[Path]:
+    """For each input a file of its name beside it, which is not there yet, or may be replaced."""
+    from shapespline.formats import check_output
+
+    suffix = f".{(ending or DEFAULT_ENDING).lstrip('.').lower()}"
+    targets = [source.with_suffix(suffix) for source in sources]
+    for source, target in zip(sources, targets, strict=True):
+        if targets.count(target) > 1:
+            raise ss.InvalidInputError(
+                f"several inputs would be written to {target}; name a folder with --output"
+            )
+        never_the_input(source, target)
+        if target.exists() and not (force or resume):
+            raise ss.InvalidInputError(
+                f"{target} exists; say --force to replace it, or another name with --output"
+            )
+        check_output(target, **writing)
+    return targets
 
 
 def outputs(
@@ -101,6 +133,13 @@ def is_done(source: Path, target: Path) -> bool:
     return target.exists() and source.exists() and target.stat().st_mtime >= source.stat().st_mtime
 
 
+def unnamed_stream(text: str) -> str:
+    """A message without the names of the files that stand for the standard streams meanwhile."""
+    for role, said in (("in", "standard input"), ("out", "standard output")):
+        text = re.sub(rf"(?:\S*[\\/])?{STREAM_FILE}-{role}\.\w+", said, text)
+    return text
+
+
 @contextlib.contextmanager
 def standard_input(given: Sequence[str], ending: str) -> Iterator[list[str]]:
     """The same names, with ``-`` replaced by a temporary file that holds standard input."""
@@ -108,13 +147,13 @@ def standard_input(given: Sequence[str], ending: str) -> Iterator[list[str]]:
         yield list(given)
         return
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"stdin.{ending.lstrip('.').lower()}"
+        path = Path(folder) / f"{STREAM_FILE}-in.{ending.lstrip('.').lower()}"
         path.write_bytes(sys.stdin.buffer.read())
         yield [str(path) if text == STREAM else text for text in given]
 
 
 @contextlib.contextmanager
-def standard_output(output: str, ending: str | None) -> Iterator[str]:
+def standard_output(output: str | None, ending: str | None) -> Iterator[str | None]:
     """The same name, or for ``-`` a temporary file that is copied to standard output at the end."""
     if output != STREAM:
         yield output
@@ -122,7 +161,7 @@ def standard_output(output: str, ending: str | None) -> Iterator[str]:
     if ending is None:
         raise ss.InvalidInputError("say with --format what to write to standard output")
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"stdout.{ending.lstrip('.').lower()}"
+        path = Path(folder) / f"{STREAM_FILE}-out.{ending.lstrip('.').lower()}"
         yield str(path)
         if path.exists():
             with path.open("rb") as file:

@@ -8,15 +8,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from shapespline.cli.places import unnamed_stream
+from shapespline.cli.words import own_words
+
 if TYPE_CHECKING:
     from shapespline import Drawing, Fit
 
 
 def say(message: object) -> None:
     """One line on standard error."""
-    print(
-        f"shapespline: {' '.join(str(message).split()) or type(message).__name__}", file=sys.stderr
-    )
+    sentence = own_words(unnamed_stream(" ".join(str(message).split()))) or type(message).__name__
+    print(f"shapespline: {sentence}", file=sys.stderr)
 
 
 @dataclass
@@ -24,7 +26,8 @@ class Report:
     """The outcome of one input.
 
     ``text`` is for people; ``record`` holds the same for scripts; ``error`` is a sentence where
-    the input failed, ``remarks`` what else its user should know.
+    the input failed, ``remarks`` what else its user should know; ``exceeded`` whether a curve
+    keeps less than its tolerance.
     """
 
     source: str
@@ -32,17 +35,18 @@ class Report:
     record: dict[str, Any] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
     error: str | None = None
+    exceeded: bool = False
 
     def show(self, as_json: bool, named: bool, on_stderr: bool = False) -> None:
         """Print; ``named`` says which input an error or a remark concerns, where there are many."""
         stream = sys.stderr if on_stderr else sys.stdout
         if as_json:
-            record = {"input": self.source, **self.record, "remarks": self.remarks}
+            record = {"input": unnamed_stream(self.source), **self.record, "remarks": self.remarks}
             if self.error is not None:
-                record["error"] = self.error
+                record["error"] = own_words(unnamed_stream(self.error))
             print(json.dumps(record, ensure_ascii=False), file=stream)
         elif self.text:
-            print(self.text, file=stream)
+            print(unnamed_stream(self.text), file=stream)
         for message in [*self.remarks, *([self.error] if self.error is not None else [])]:
             known = Path(self.source).name in message
             name = f"{self.source}: " if named and not known else ""

@@ -18,13 +18,16 @@ if TYPE_CHECKING:
 
     from shapespline.cli.reports import Report
 
+# Exit code where everything was written, and a tolerance is not kept.
+EXCEEDED = 3
+
 
 @dataclass(frozen=True)
 class Batch:
     """What the user said about inputs, outputs and how to run."""
 
     given: Sequence[str]
-    output: str
+    output: str | None
     ending: str | None
     stdin_ending: str
     as_json: bool
@@ -32,6 +35,15 @@ class Batch:
     scheduler: str | None = None
     resume: bool = False
     writing: Mapping[str, object] = field(default_factory=dict)
+    force: bool = False
+
+    def targets(self, sources: Sequence[Path], output: str | None) -> list[Path]:
+        """The file to write for each input."""
+        if output is None:
+            return places.beside(
+                sources, self.ending, self.writing, force=self.force, resume=self.resume
+            )
+        return places.outputs(sources, output, self.ending, self.writing)
 
 
 def run_files(
@@ -45,8 +57,11 @@ def run_files(
     Raises
     ------
     typer.Exit
-        With code 1 if an input failed; the others have been written.
+        With code 1 if an input failed; the others have been written. With code 3 if all were
+        written, and a curve keeps less than its tolerance.
     """
+    if batch.output is None and places.STREAM in batch.given:
+        raise ss.InvalidInputError("say with --output where the result of standard input goes")
     to_stream = batch.output == places.STREAM
     with contextlib.ExitStack() as stack:
         given = stack.enter_context(places.standard_input(batch.given, batch.stdin_ending))
@@ -57,14 +72,15 @@ def run_files(
                 f"standard output takes one drawing, got {len(sources)} inputs; name a folder"
             )
         work = work_on(sources)
-        pairs = list(
-            zip(sources, places.outputs(sources, output, batch.ending, batch.writing), strict=True)
-        )
+        pairs = list(zip(sources, batch.targets(sources, output), strict=True))
         if batch.resume:
             pairs = [pair for pair in pairs if not places.is_done(*pair)]
-        n_failed = 0
+        n_failed = n_exceeded = 0
         for report in run_all(work, pairs, n_jobs=batch.n_jobs, scheduler=batch.scheduler):
             report.show(batch.as_json, named=len(sources) > 1, on_stderr=to_stream)
             n_failed += report.error is not None
+            n_exceeded += report.exceeded
     if n_failed:
         raise typer.Exit(1)
+    if n_exceeded:
+        raise typer.Exit(EXCEEDED)

@@ -8,6 +8,7 @@ import numpy as np
 
 from shapespline.analysis import order_points
 from shapespline.errors import FormatError
+from shapespline.formats.columns import picked
 from shapespline.geometry import parents_of, sampled
 from shapespline.values import Contour, Shape
 
@@ -70,7 +71,12 @@ def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:
 
 
 def read(
-    path: Path, *, closed: bool | None = None, y_down: bool = False, unordered: bool = False
+    path: Path,
+    *,
+    closed: bool | None = None,
+    y_down: bool = False,
+    unordered: bool = False,
+    columns: str | None = None,
 ) -> Shape:
     """Read outlines from delimited text.
 
@@ -93,6 +99,9 @@ def read(
     unordered : bool
         Find the outlines that the points were taken from, whatever their order in the file; see
         `order_points`.
+    columns : str, optional
+        The columns of a wider table that hold x and y: two names of its first line or two numbers
+        from 1, such as ``"east,north"`` or ``"2,3"``.
 
     Returns
     -------
@@ -106,7 +115,7 @@ def read(
     InvalidInputError
         If the points make no contour, or no order can be found.
     """
-    points, breaks = parse(path.read_bytes())
+    points, breaks = parse(path.read_bytes(), columns)
     if y_down:
         points = turned_over(points)
     if unordered:
@@ -161,7 +170,7 @@ class Parsed(NamedTuple):
     breaks: list[int]
 
 
-def parse(data: bytes) -> Parsed:
+def parse(data: bytes, columns: str | None = None) -> Parsed:
     r"""Points of delimited text.
 
     Examples
@@ -171,6 +180,8 @@ def parse(data: bytes) -> Parsed:
     ([[1.5, 2.0], [3.0, 4.5], [0.0, 0.0], [1.0, 1.0]], [2])
     """
     lines = _decoded(data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    if columns is not None:
+        lines = picked(lines, columns)
     dialect, n_skipped = _dialect(lines)
     body = lines[n_skipped:]
     if dialect.separator != "," and any("," in line for line in body):

@@ -1,0 +1,18 @@
+"""
+A photograph
+============
+
+The longest outline of a butterfly, within one and a half pixels.
+"""
+
+from canvas import curves, image, panels, picture, stored
+
+import shapespline as ss
+
+name = image("opencv_butterfly.jpg")
+drawing = ss.fit_shape(ss.read(name, contours="longest"), tolerance=1.5, effort="fast")
+
+(axes,) = panels()
+picture(axes, name)
+curves(axes, drawing, points=False)
+axes.set_title(f"{len(drawing.fits[0].contour)} outline points, {stored(drawing)} stored")

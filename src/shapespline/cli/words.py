@@ -1,0 +1,46 @@
+"""Sentences of the library in the words of the command line: options as they are typed."""
+
+from __future__ import annotations
+
+import functools
+import re
+
+# What the library says -> what was typed. Options that the command line lacks are not spoken of.
+WORDS = (
+    (r"end_tangents, through and symmetric act\b", "--symmetric acts"),
+    (r"end_tangents and through act\b", "directions and points act"),
+    (r"\bn_control_points\b(?:=(\d+))?", r"--control-points \1"),
+    (
+        r"; go on from here with optimize\(contour, fit\)",
+        "; take more points or a larger tolerance",
+    ),
+    (r"\b(corners|form|ends|effort|unit)='([^']*)'", r"--\1 \2"),
+    (r"\bwith weights or form=\S+", "with --form spline"),
+    (r"\b(time_limit|arc_tolerance|min_area|y_down|shared_boundaries)\b(?:=(\S+))?", r"--\1 \2"),
+    (r"\bdpi, pixels per inch, or scale\b", "--dpi, --width or --scale"),
+)
+PATTERNS = tuple((re.compile(pattern), said) for pattern, said in WORDS)
+
+
+def own_words(sentence: str) -> str:
+    """The sentence as the command line says it.
+
+    Examples
+    --------
+    >>> own_words("n_control_points must be at least degree + 1 = 4, got 3")
+    '--control-points must be at least degree + 1 = 4, got 3'
+    >>> own_words("corners and effort do not act with time_limit=3")
+    'corners and effort do not act with --time-limit 3'
+    """
+    for pattern, said in PATTERNS:
+        sentence = pattern.sub(functools.partial(_filled, said), sentence)
+    return sentence
+
+
+def _filled(said: str, found: re.Match[str]) -> str:
+    """The template with what was found; names with dashes, no blank where nothing follows."""
+    text = re.sub(r"\\(\d)", lambda group: found.group(int(group[1])) or "", said)
+    head, blank, rest = text.partition(" ")
+    if head.startswith("--"):
+        head = head.replace("_", "-")
+    return f"{head}{blank}{rest}".rstrip()
