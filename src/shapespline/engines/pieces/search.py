@@ -147,15 +147,19 @@ def _unpacked(
         kind = "line" if degree == 1 else "bezier" if inner == 0 else "spline"
         pieces.append(Piece(kind, degree, knots[k : k + count + degree + 1], points[m : m + count]))
         k, m = k + count + degree + 1, m + count
-    return _without_degenerate_pieces(pieces)
+    return without_degenerate(pieces)
 
 
-def _without_degenerate_pieces(pieces: list[Piece]) -> tuple[Piece, ...]:
-    """The pieces without degenerate ones; the neighbours of those meet exactly."""
+def without_degenerate(pieces: list[Piece]) -> tuple[Piece, ...]:
+    """The pieces but for those of next to no length; their neighbours meet, the ends stay."""
     lengths = [piece.polygon_length for piece in pieces]
     least = DEGENERATE_PART * sum(lengths)
     kept = [p for p, length in zip(pieces, lengths, strict=True) if length > least]
-    if len(kept) < len(pieces):
-        for before, after in pairwise(kept):
-            after.control_points[0] = before.control_points[-1]
+    if len(kept) == len(pieces) or not kept:
+        return tuple(kept)
+    kept = [piece._replace(control_points=piece.control_points.copy()) for piece in kept]
+    kept[0].control_points[0] = pieces[0].control_points[0]
+    kept[-1].control_points[-1] = pieces[-1].control_points[-1]
+    for before, after in pairwise(kept):
+        after.control_points[0] = before.control_points[-1]
     return tuple(kept)

@@ -109,9 +109,14 @@ def pieces_of(fit: Fit) -> tuple[Piece, ...]:
 def shares_of(x: FloatArray, y: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
     """Where on segments (u, v) the points nearest to others are, in parts of the segments.
 
-    The others are (x, y) from where the segments begin.
+    The others are (x, y) from where the segments begin. Of a segment without length, such as that
+    from the last point to the first of open data whose ends coincide, the part is 0.
     """
-    return np.clip((x * u + y * v) / (u * u + v * v), 0.0, 1.0)
+    lengths_sq = u * u + v * v
+    along = x * u + y * v
+    return np.clip(
+        np.divide(along, lengths_sq, out=np.zeros_like(along), where=lengths_sq > 0), 0.0, 1.0
+    )
 
 
 def located(
