@@ -9,6 +9,7 @@ from tests.support.shapes import on_circle
 
 import shapespline as ss
 from checks import bits, distance_to_curve
+from shapespline.engines.pieces import PiecesProblem, chords_found
 from shapespline.values import periodic_knots
 
 pytestmark = pytest.mark.filterwarnings("ignore::shapespline.DroppedPointsWarning")
@@ -24,7 +25,18 @@ def koch(level):
     return np.column_stack([corners.real, corners.imag])
 
 
-def through_all(fit, points, tolerance):
+def coast(n, seed):
+    """A closed outline of midpoints displaced at every scale, at least n points."""
+    rng = np.random.default_rng(seed)
+    points = 10 * np.exp(2j * np.pi * np.arange(3) / 3)
+    while len(points) < n:
+        side = np.roll(points, -1) - points
+        middles = points + side / 2 + 1j * side * rng.normal(0, 0.25, len(points))
+        points = np.column_stack([points, middles]).ravel()
+    return np.column_stack([points.real, points.imag])
+
+
+def far_from(fit, points, tolerance):
     return distance_to_curve(np.asarray(points), fit.curve, tolerance / 50).max()
 
 
@@ -90,13 +102,13 @@ def test_corners_weights_and_outliers_count_the_same(closed):
     weights = np.ones(len(twice))
     weights[place[50]] = 20.0
     heavy = ss.fit_curve(twice, closed=closed, tolerance=0.05, weights=weights)
-    assert through_all(heavy, square[50:51], 0.05) <= 0.05 / 20
+    assert far_from(heavy, square[50:51], 0.05) <= 0.05 / 20
 
     square[30] += 7.0
     twice, place = doubled(square, 5)
     kept = ss.fit_curve(twice, closed=closed, tolerance=0.05, outliers=True, through=[place[50]])
     assert kept.outliers.tolist() == [place[30]]
-    assert through_all(kept, square[50:51], 0.05) <= 1e-9
+    assert far_from(kept, square[50:51], 0.05) <= 1e-9
 
 
 @pytest.mark.parametrize("through", [None, [0], [0, 120], [0, 120, 250], [250], [120, 250, 299]])
@@ -169,3 +181,18 @@ def test_the_blocks_of_a_dask_array_do_not_matter(rows):
     assert bits(here.spline.knots, here.control_points) == bits(
         there.spline.knots, there.control_points
     )
+
+
+@pytest.mark.parametrize("n", [49_152, 98_304])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_more_points_of_a_coast_cost_no_more(n, seed):
+    """Averages stood for them as if they were noise, and took most of the tolerance."""
+    points = coast(n, seed)
+    outline, sparse = ss.Contour(points, closed=True), ss.Contour(points[:: n // 12_288], True)
+    tolerance = 0.005 * outline.box_diagonal
+    fit = ss.fit_curve(outline, tolerance=tolerance)
+    assert fit.kept
+    assert fit.n_stored_points <= chords_found(PiecesProblem.of(outline, tolerance, None)).n_points
+    # The search is greedy: its path differs by some percent.
+    few = ss.fit_curve(sparse, tolerance=tolerance).n_stored_points
+    assert fit.n_stored_points <= 1.1 * few
