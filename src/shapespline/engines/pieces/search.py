@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
 # A piece shorter than this part of the curve is degenerate: rounding made it.
 DEGENERATE_PART = 1e-12
+# Knots are whole parts of this: then 1 - u is exact, and pieces turned around twice are the same.
+KNOT_GRID = 2.0**52
 # The search gives up a corner that the fit turns by less than this part of `LEAST_TURN`.
 RELEASE = 0.7
 # Control points move by at most this part of the tolerance to make a tangent exact. That moves a
@@ -139,6 +141,7 @@ def _unpacked(
     degrees: list[int], counts: list[int], knots: FloatArray, coordinates: FloatArray
 ) -> tuple[Piece, ...]:
     """Pieces from the kernel's arrays end to end."""
+    knots = np.round(knots * KNOT_GRID) / KNOT_GRID
     pieces = []
     k = m = 0
     points = coordinates.reshape(-1, 2)

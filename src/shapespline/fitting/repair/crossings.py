@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.analysis import canonical_reading
 from shapespline.engines.pieces import through_all
 from shapespline.fitting.repair.assignment import (
     SAMPLING_PART,
@@ -31,7 +32,16 @@ from shapespline.fitting.repair.refit import (
     windows_around,
 )
 from shapespline.fitting.verify import verified_fit
-from shapespline.geometry import chords, crossing_pairs, joined, nearest, self_crossings
+from shapespline.geometry import (
+    backwards,
+    chords,
+    crossing_pairs,
+    joined,
+    nearest,
+    reversed_curve,
+    self_crossings,
+)
+from shapespline.values import Contour
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -39,7 +49,7 @@ if TYPE_CHECKING:
     from shapespline.fitting.repair.assignment import DataRun
     from shapespline.fitting.request import Request
     from shapespline.typing import FloatArray
-    from shapespline.values import Contour, Fit
+    from shapespline.values import Fit
 
 
 class Step(NamedTuple):
@@ -70,10 +80,43 @@ CROSSES = "it crosses a curve where the data do not"
 
 
 def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
-    """A fit of one outline in pieces that crosses itself no more than its data."""
+    """A fit of one outline in pieces that crosses itself no more than its data.
+
+    Points are read in their canonical order: what is repaired does not depend on which of them
+    comes first and which way they run.
+    """
     if not request.is_plain or request.style.form == "spline":
         return fit
-    return uncrossed([request.contour], [fit], request, ask)[0]
+    contour = request.contour
+    start, step = canonical_reading(contour.points, closed=contour.closed)
+    order = (start + step * np.arange(len(contour))) % len(contour)
+    read = Contour.trusted(contour.points[order], contour.closed, contour.accuracy)
+    turned = _turned(replace(fit, contour=read), step)
+    (found,) = uncrossed([read], [turned], request, ask)
+    if found is turned:
+        return fit
+    if found.sections is turned.sections:
+        return replace(fit, status=found.status)
+    pieces = _turned(found, step).sections
+    again = verified_fit(
+        contour,
+        joined(pieces, fit.degree),
+        tolerance=fit.tolerance,
+        method=fit.method,
+        sections=pieces,
+        history=fit.history,
+    )
+    return _told(again) if found.status.value.endswith(CROSSES) else again
+
+
+def _turned(fit: Fit, step: int) -> Fit:
+    """The curve of a fit, run through the other way where points are read by steps of -1."""
+    if step > 0:
+        return fit
+    pieces = backwards(fit.sections)
+    # Joined anew: to the bit what pieces that were found in this order make.
+    spline = joined(pieces, fit.degree) if pieces else reversed_curve(fit.spline)
+    return replace(fit, spline=spline, sections=pieces)
 
 
 def uncrossed(
