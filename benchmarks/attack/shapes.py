@@ -112,7 +112,7 @@ def retraced(rng: Generator) -> tuple[Array, bool]:
     x = np.linspace(0, 10, int(rng.integers(20, 200)))
     there = np.column_stack([x, np.sin(float(rng.uniform(0.2, 2)) * x)])
     hair = float(rng.choice([0.0, 1e-12, 1e-3]))
-    return np.concatenate([there, there[-2::-1] + [0.0, hair]]), bool(rng.integers(2))
+    return np.concatenate([there, there[-2::-1] + np.array([0.0, hair])]), bool(rng.integers(2))
 
 
 def uneven(rng: Generator) -> tuple[Array, bool]:

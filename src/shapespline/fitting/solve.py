@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from shapespline.fitting.choose import Shortlist
 from shapespline.fitting.plan import plan
 from shapespline.fitting.problem import Problem
-from shapespline.fitting.repair import respect_weights, uncross
+from shapespline.fitting.repair import respect_weights, told, uncross
 from shapespline.fitting.streamed import MANY_POINTS, streamed
 from shapespline.fitting.verify import finished, verify
 
@@ -46,6 +46,8 @@ def solve(request: Request, monitor: Monitor) -> Fit:
             fit = uncross(fit, request, ask)
     if request.tolerance is not None and request.weights is not None:
         fit = respect_weights(fit, request, ask)
+    if request.tolerance is not None:
+        fit = told(fit)
     return replace(fit, outliers=request.left_out)
 
 

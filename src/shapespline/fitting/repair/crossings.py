@@ -17,10 +17,10 @@ import numpy as np
 from shapespline.analysis import canonical_reading
 from shapespline.engines.pieces import through_all
 from shapespline.fitting.repair.assignment import (
-    SAMPLING_PART,
     AssignedPiece,
     PieceAssignment,
     curve_of,
+    line_of,
 )
 from shapespline.fitting.repair.clearance import Sides, moved
 from shapespline.fitting.repair.refit import (
@@ -34,7 +34,6 @@ from shapespline.fitting.repair.refit import (
 from shapespline.fitting.verify import verified_fit
 from shapespline.geometry import (
     backwards,
-    chords,
     crossing_pairs,
     joined,
     nearest,
@@ -109,6 +108,12 @@ def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
     return _told(again) if found.status.value.endswith(CROSSES) else again
 
 
+def told(fit: Fit) -> Fit:
+    """The fit; its status says so if its curve crosses itself more often than its data do."""
+    count = self_crossings(_line(fit))
+    return _told(fit) if count and count > self_crossings(fit.contour.polyline) else fit
+
+
 def _turned(fit: Fit, step: int) -> Fit:
     """The curve of a fit, run through the other way where points are read by steps of -1."""
     if step > 0:
@@ -165,7 +170,7 @@ def uncrossed(
 
 def _line(fit: Fit) -> FloatArray:
     """A fit as a polyline."""
-    return chords(fit.spline, SAMPLING_PART * fit.tolerance)[0]
+    return line_of(fit.spline, fit.tolerance, fit.corners)
 
 
 def _no_larger_than_data(fit: Fit) -> Fit:
@@ -220,7 +225,7 @@ def _new_crossings(
     return pairs | {
         (index, index)
         for index, line in enumerate(lines)
-        if self_crossings(line) > self_crossings(data[index])
+        if (count := self_crossings(line)) and count > self_crossings(data[index])
     }
 
 
