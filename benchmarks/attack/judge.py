@@ -47,6 +47,8 @@ STEP, CROSSING_STEP, LEAST_STEP = 1 / 5, 1 / 20, 1 / 4000
 HOOKS_FROM = 0.001
 # A curve that stands still but for this part of its middle speed has a near-cusp.
 NEAR_CUSP = 0.02
+# Sides this near, in parts of the size, lie on each other.
+TOUCHING = 1e-9
 # Radii below this part of the tolerance are counted.
 SMALL_RADIUS = 0.01
 ALLOWED = (ss.DroppedPointsWarning, ss.ShuffledPointsWarning)
@@ -102,12 +104,29 @@ def _promises(fit: ss.Fit, drawn: Drawn, options: dict[str, Any]) -> set[str]:
     curve = self_crossings(polyline_of(fit.curve, max(CROSSING_STEP * tolerance, least)))
     if curve and "crosses" not in fit.status.value:
         polyline = fit.contour.polyline
-        if curve > self_crossings(polyline):
+        if curve > self_crossings(polyline) and not lies_on_itself(polyline):
             found.add("unsaid crossing")
     ends = BSpline(*fit.curve.tck)(1.0), fit.spline.beziers().points[-1, -1]
     if np.abs(ends[0] - ends[1]).max() > 1e-9 * np.ptp(data, axis=0).max() + slack:
         found.add("tck end")
     return found
+
+
+def lies_on_itself(polyline: Array) -> bool:
+    """Whether some side of a polyline touches one that is not next to it: then no count is right."""
+    begin, side = polyline[:-1], np.diff(polyline, axis=0)
+    n, near = len(side), TOUCHING * float(np.ptp(polyline, axis=0).max())
+    closed = bool((polyline[0] == polyline[-1]).all())
+    for i, point in enumerate(polyline[:-1] + 0.5 * side):
+        offset = point - begin
+        share = (offset * side).sum(axis=1) / np.maximum((side**2).sum(axis=1), 1e-300)
+        away = np.hypot(*(offset - np.clip(share, 0, 1)[:, None] * side).T)
+        apart = np.abs(np.arange(n) - i)
+        apart = np.minimum(apart, n - apart) if closed else apart
+        # A neighbour that folds back lies on the middle of a side.
+        if (away[apart > 0] <= near).any():
+            return True
+    return False
 
 
 def _constraints(fit: ss.Fit, points: Array, options: dict[str, Any]) -> set[str]:

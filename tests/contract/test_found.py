@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from benchmarks.attack.shapes import drawn
 from scipy.interpolate import BSpline, splev
 from tests.support.shapes import on_circle
 
 import shapespline as ss
-from checks import bits, distance_to_curve
+from checks import bits, distance_to_curve, polyline_of, self_crossings
 from shapespline.engines.pieces import PiecesProblem, chords_found
 from shapespline.values import periodic_knots
 
@@ -196,3 +197,38 @@ def test_more_points_of_a_coast_cost_no_more(n, seed):
     # The search is greedy: its path differs by some percent.
     few = ss.fit_curve(sparse, tolerance=tolerance).n_stored_points
     assert fit.n_stored_points <= 1.1 * few
+
+
+@pytest.mark.parametrize("seed", [31, 0, 3, 12])
+def test_thin_trailing_edges_do_not_cross(seed):
+    shape = drawn(seed, "airfoil")
+    size = float(np.hypot(*np.ptp(shape.points, axis=0)))
+    fit = ss.fit_curve(shape.points, closed=shape.closed, tolerance=0.005 * size)
+    assert fit.kept
+    assert self_crossings(polyline_of(fit.curve, fit.tolerance / 50)) == 0
+
+
+@pytest.mark.parametrize("options", [{"through": [20, 90]}, {"form": "spline", "effort": "fast"}])
+def test_a_crossing_is_said_where_nothing_repairs_it(options):
+    x = np.linspace(0, 10, 80)
+    there = np.column_stack([x, np.sin(2 * x)])
+    points = np.concatenate([there, there[::-1] + np.array([0.0, 1e-3])])
+    fit = ss.fit_curve(points, closed=False, tolerance=0.02, **options)
+    assert fit.kept
+    assert self_crossings(polyline_of(fit.curve, 0.001)) > 0
+    assert "crosses" in fit.status.value
+
+
+@pytest.mark.parametrize("name", ["combs", "hand620_closed", "leaf840_closed"])
+def test_repairs_do_not_depend_on_the_direction(outline, name):
+    """Pieces that cross were fitted again in the order of the data as they came."""
+    points = drawn(56, "comb").points if name == "combs" else outline(name).points
+    tolerance = 0.004 * float(np.hypot(*np.ptp(points, axis=0)))
+    sorted_points = [
+        sorted(map(tuple, np.concatenate([p.control_points for p in fit.pieces]).tolist()))
+        for fit in (
+            ss.fit_curve(data, closed=True, tolerance=tolerance)
+            for data in (points, points[::-1], np.roll(points, len(points) // 3, axis=0))
+        )
+    ]
+    assert sorted_points[0] == sorted_points[1] == sorted_points[2]
