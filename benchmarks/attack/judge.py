@@ -113,7 +113,7 @@ def _promises(fit: ss.Fit, drawn: Drawn, options: dict[str, Any]) -> set[str]:
 
 
 def lies_on_itself(polyline: Array) -> bool:
-    """Whether some side of a polyline touches one that is not next to it: then no count is right."""
+    """Whether a side of a polyline touches one that is not next to it: no count is right then."""
     begin, side = polyline[:-1], np.diff(polyline, axis=0)
     n, near = len(side), TOUCHING * float(np.ptp(polyline, axis=0).max())
     closed = bool((polyline[0] == polyline[-1]).all())

@@ -120,8 +120,8 @@ def _begun_in(
     turned = raised._replace(kind="bezier", control_points=points)
     if raised.degree > 1:
         return (turned, after, *pieces[1:])
-    # A line cannot turn: two of them go around.
-    corner = points[0] + 0.5 * (points[1] - points[0])
+    # A line cannot turn: two of them go around, no farther away than a cubic would.
+    corner = points[0] + 0.25 * (points[1] - points[0])
     end, knots = after.control_points[0], raised.knots
     return (
         Piece("line", 1, knots, np.array([points[0], corner])),
