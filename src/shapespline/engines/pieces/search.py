@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
 # A piece shorter than this part of the curve is degenerate: rounding made it.
 DEGENERATE_PART = 1e-12
-# Knots are whole parts of this: then 1 - u is exact, and pieces turned around twice are the same.
+# Knots are whole parts of this: then 1 - u is exact, and pieces turned around twice are the same
+# (PIE-25).
 KNOT_GRID = 2.0**52
 # The search gives up a corner that the fit turns by less than this part of `LEAST_TURN`.
 RELEASE = 0.7

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
     from shapespline.values import Contour, Fit
 
-# Repairs look at curves as polylines within this part of their tolerance (FIT-14).
+# Repairs look at curves as polylines within this part of their tolerance (FIT-17).
 SAMPLING_PART = 0.002
 # Beside corners chords are shorter and shorter, by these parts.
 HALVINGS = 0.5 ** np.arange(2, 21, 2)

@@ -82,9 +82,11 @@ def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
     """A fit of one outline in pieces that crosses itself no more than its data.
 
     Points are read in their canonical order: what is repaired does not depend on which of them
-    comes first and which way they run.
+    comes first and which way they run. Where it cannot be repaired its status says so.
     """
     if not request.is_plain or request.style.form == "spline":
+        return told(fit)
+    if not self_crossings(_line(fit)):
         return fit
     contour = request.contour
     start, step = canonical_reading(contour.points, closed=contour.closed)
