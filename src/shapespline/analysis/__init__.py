@@ -5,6 +5,7 @@ from shapespline.analysis.cpda import Cpda, bending, check_window, chord_to_poin
 from shapespline.analysis.mirror import Mirror, find_mirror
 from shapespline.analysis.noise import noise_level
 from shapespline.analysis.normalization import (
+    FEW_LEFT,
     LONGEST_CHORD,
     MOST_SCATTER,
     NormalizedContour,
@@ -32,6 +33,7 @@ from shapespline.analysis.straight_runs import (
 
 __all__ = [
     "FEWEST_STRAIGHT",
+    "FEW_LEFT",
     "LEAST_TURN",
     "LONGEST_CHORD",
     "LOW_TURN",

@@ -34,6 +34,10 @@ WORTH_THINNING = 0.7
 # if their error is at most this part of the tolerance (ANA-12).
 MANY_POINTS = 20_000
 MOST_SCATTER = 0.9
+# A coast does not thin by little, either, and averages of it lie far away. Parts of the tolerance
+# to thin it by, where so small a part of its points stays: of noise most stay (ANA-14).
+COARSER_THINNINGS = (0.03, 0.1)
+FEW_LEFT = 0.25
 # The canonical order compares all readings of an outline by so many distances at once, then two by
 # two.
 HEAD = 16
@@ -100,14 +104,13 @@ class NormalizedContour(NamedTuple):
             return self
         marks = np.zeros(len(work.polyline), dtype=np.int64)
         marks[marked] = 1
-        kept_indices = np.array(
-            _kernels.thinned(work.polyline, error_used, LONGEST_CHORD * self.extent, marks),
-            dtype=np.int64,
-        )
-        if work.closed:
-            kept_indices = kept_indices[:-1]
+        kept_indices = self._kept_indices(error_used, marks)
         if len(kept_indices) > MANY_POINTS:
             found = averaged(work.points, work.closed, marked)
+            for part in COARSER_THINNINGS:
+                coarser = self._kept_indices(part * tolerance, marks)
+                if len(coarser) <= FEW_LEFT * len(work) and part * tolerance < found.error_bound:
+                    return self._without_others(coarser, part * tolerance)
             if found.error_bound <= MOST_SCATTER * tolerance:
                 return self._replace(
                     contour=Contour.trusted(found.nodes, work.closed, work.accuracy),
@@ -116,6 +119,19 @@ class NormalizedContour(NamedTuple):
                 )
         if len(kept_indices) > WORTH_THINNING * len(work):
             return self
+        return self._without_others(kept_indices, error_used)
+
+    def _kept_indices(self, distance: float, marks: IntArray) -> IntArray:
+        """Indices of points that stay when those within a distance of chords go."""
+        found = _kernels.thinned(
+            self.contour.polyline, distance, LONGEST_CHORD * self.extent, marks
+        )
+        kept_indices = np.array(found, dtype=np.int64)
+        return kept_indices[:-1] if self.contour.closed else kept_indices
+
+    def _without_others(self, kept_indices: IntArray, error_used: float) -> NormalizedContour:
+        """The contour with some of its points only."""
+        work = self.contour
         return self._replace(
             contour=Contour.trusted(work.points[kept_indices], work.closed, work.accuracy),
             order=self.order[kept_indices],

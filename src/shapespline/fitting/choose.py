@@ -49,6 +49,12 @@ class Shortlist:
         """Whether one keeps the tolerance."""
         return any(verified.kept for verified in self._verified)
 
+    @property
+    def missing_tangents(self) -> tuple[Verified, ...]:
+        """Those that keep the tolerance, where all of these miss a tangent that was asked for."""
+        kept = tuple(verified for verified in self._verified if verified.kept)
+        return kept if all(verified.tangent_error for verified in kept) else ()
+
     def among(self, *ranks: int) -> Verified | None:
         """The best of some ranks, None if there is none of them."""
         those = [one for one in self._verified if one.candidate.rank in ranks]

@@ -31,6 +31,7 @@ from shapespline.fitting.strategies import (
     OneSpline,
     Pieces,
     ThroughAll,
+    TurnedEnds,
 )
 
 if TYPE_CHECKING:
@@ -115,11 +116,13 @@ def plan_pieces(problem: Problem, shortlist: Shortlist) -> Iterator[Strategy]:
         chords = chords_found(problem.thinned)
         few = few and count <= chords.n_points
         no_lines = chords.follow_curve or count <= CHORDS_PART * chords.n_points
-    if few and no_lines:
-        return
-    yield Lines(needed=not few, fewer_than=count)
-    if not shortlist.kept:
+    if not (few and no_lines):
+        yield Lines(needed=not few, fewer_than=count)
+        if not shortlist.kept:
+            yield ThroughAll()
+    if problem.request.insists_on_tangents and shortlist.missing_tangents:
         yield ThroughAll()
+        yield TurnedEnds(shortlist.missing_tangents)
 
 
 def _one_spline_may_be_better(problem: Problem, in_pieces: Verified) -> bool:

@@ -110,6 +110,8 @@ class Request:
         Indices, among the points that were given, of outliers.
     pieces_only : bool
         Whether one spline is no answer: of a half whose mirror image goes on from it.
+    is_part : bool
+        Whether it asks for a window of a curve again; it may miss a tangent there.
     """
 
     contour: Contour
@@ -121,6 +123,7 @@ class Request:
     effort: Effort = "balanced"
     left_out: IntArray = field(default_factory=lambda: NO_INDICES)
     pieces_only: bool = False
+    is_part: bool = False
 
     @classmethod
     def of(cls, points: ArrayLike | Contour, closed: bool | None, settings: Settings) -> Request:
@@ -185,6 +188,12 @@ class Request:
         """Whether nothing but ends is kept exactly."""
         return not (self.constraints.anything or self.symmetric)
 
+    @property
+    def insists_on_tangents(self) -> bool:
+        """Whether tangents were asked for that a curve meets at the price of points."""
+        given = any(tangent is not None for tangent in self.constraints.tangents)
+        return given and not (self.pieces_only or self.is_part)
+
     def without_outliers(self) -> Request:
         """The request for the points that do not jump off the path and back."""
         contour = self.contour
@@ -245,6 +254,7 @@ class Request:
             style=replace(self.style, corners=corners),
             constraints=Constraints(True, nodes, (directions[0], directions[1])),
             effort=self.effort,
+            is_part=True,
         )
 
     def closer(self, within: float, through: IntArray | None = None) -> Request:
@@ -275,6 +285,7 @@ class Request:
             "effort": self.effort,
             "left_out": self.left_out.tolist(),
             "pieces_only": self.pieces_only,
+            "is_part": self.is_part,
         }
 
     @classmethod
@@ -297,6 +308,7 @@ class Request:
             effort=said["effort"],
             left_out=np.array(said["left_out"], dtype=np.int64),
             pieces_only=said["pieces_only"],
+            is_part=said["is_part"],
         ).checked()
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from shapespline.fitting.choose import Shortlist
 from shapespline.fitting.plan import plan
 from shapespline.fitting.problem import Problem
-from shapespline.fitting.repair import respect_weights, uncross
+from shapespline.fitting.repair import respect_weights, told, uncross
 from shapespline.fitting.streamed import MANY_POINTS, streamed
 from shapespline.fitting.verify import finished, verify
 
@@ -40,12 +40,13 @@ def solve(request: Request, monitor: Monitor) -> Fit:
     fit = None
     if request.tolerance is not None and request.is_plain and len(request.contour) >= MANY_POINTS:
         fit = streamed(request, monitor, search)
+        fit = None if fit is None else told(fit)
     if fit is None or not (fit.kept or monitor.ended):
         fit = ask(request)
-        if request.tolerance is not None and not monitor.ended:
-            fit = uncross(fit, request, ask)
+        if request.tolerance is not None:
+            fit = told(fit) if monitor.ended else uncross(fit, request, ask)
     if request.tolerance is not None and request.weights is not None:
-        fit = respect_weights(fit, request, ask)
+        fit = told(respect_weights(fit, request, ask))
     return replace(fit, outliers=request.left_out)
 
 

@@ -26,6 +26,7 @@ from shapespline.engines.pieces import (
     search_lines,
     search_pieces,
     through_all,
+    with_ends_turned,
 )
 from shapespline.engines.spline import attempts
 from shapespline.fitting.problem import Problem
@@ -45,6 +46,9 @@ if TYPE_CHECKING:
 
 # The simpler structure has the smaller rank; see `choose`.
 ONE_SPLINE, MIRRORED, PIECES, LINES, EVERY_POINT = range(5)
+# A turn into a tangent is so many times as long as what is left of the tolerance: its first
+# control point moves by up to two thirds of its length, the curve by 4/9 of that (PIE-24).
+TURN_PART = 2.0
 
 
 class Strategy(Protocol):
@@ -97,7 +101,8 @@ class Pieces:
             )
             if found:
                 verified = yield _of_pieces(problem, found, PIECES)
-                if verified.kept:
+                met = not (verified.tangent_error and request.insists_on_tangents)
+                if verified.kept and met:
                     return
             if monitor.ended:
                 return
@@ -130,6 +135,26 @@ class ThroughAll:
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
         """One curve."""
         yield _of_pieces(problem, through_all(problem.normalized.contour), EVERY_POINT)
+
+
+@dataclass(frozen=True)
+class TurnedEnds:
+    """Curves that keep the tolerance but miss a tangent, turned into it at their ends."""
+
+    missing: tuple[Verified, ...]
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve for each, with as long a turn as the rest of the tolerance allows."""
+        request = problem.request
+        for verified in self.missing:
+            left = problem.tolerance - verified.fit.hausdorff_distance
+            pieces = with_ends_turned(
+                verified.candidate.pieces,
+                request.constraints.tangents,
+                TURN_PART * left,
+                request.style.degree,
+            )
+            yield Candidate(method="sections", rank=verified.candidate.rank, pieces=pieces)
 
 
 @dataclass(frozen=True)

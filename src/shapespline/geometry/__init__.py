@@ -14,7 +14,7 @@ from shapespline.geometry.distances import (
 from shapespline.geometry.exact import Outlines, exact_drawing
 from shapespline.geometry.flattening import chords, sampled
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
-from shapespline.geometry.joining import joined, turn_between
+from shapespline.geometry.joining import elevated, joined, turn_between
 from shapespline.geometry.nearest import nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
@@ -37,6 +37,7 @@ __all__ = [
     "containing",
     "crossing_pairs",
     "curve_motion",
+    "elevated",
     "exact_drawing",
     "greville_matched",
     "in_unit",

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 # Control points beside a node that are closer to it than this part of the others, or parameter
 # intervals that differ by more, leave the node a full knot.
 LARGEST_RATIO = 1e5
+# Parameter intervals are at least this part of all, so that their sums can be told apart (GEO-08).
+LEAST_PART = 1e-12
 
 
 def turn_between(before: Piece, after: Piece) -> float:
@@ -80,6 +82,12 @@ def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
     smooth = [False] + [_c1_possible(a, b) for a, b in pairwise(raised)]
     widths = _interval_widths(raised, smooth)
     total = sum(widths)
+    if min(widths) < LEAST_PART * total:
+        smooth = [False] * len(raised)
+        widths = [piece.polygon_length for piece in raised]
+        least = LEAST_PART * sum(widths)
+        widths = [max(width, least) for width in widths]
+        total = sum(widths)
     ends = [along / total for along in accumulate(widths, initial=0.0)]
     ends[-1] = 1.0
     knots, points = [0.0] * (degree + 1), [raised[0].control_points[:1]]

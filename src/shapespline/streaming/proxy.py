@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.analysis import MOST_SCATTER, WIDTHS, Averages, at_end, averages, best_width, joint
+from shapespline.analysis import (
+    FEW_LEFT,
+    MOST_SCATTER,
+    WIDTHS,
+    Averages,
+    at_end,
+    averages,
+    best_width,
+    joint,
+)
 from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
@@ -67,6 +76,10 @@ class ProxyPolyline(NamedTuple):
         scatter, width = min(scatters), best_width(scatters)
         if scatter <= MOST_SCATTER * tolerance:
             averaged = cls._averaged(passes, seen, closed, width)
+            tried = trial(THINNINGS[2])
+            few = min(FEW_VERTICES, FEW_LEFT * passes.stream.n_points)
+            if tried.expected <= few and THINNINGS[2] * tolerance < averaged.error_bound:
+                return cls._thinned(passes, tried)
             if averaged.error_bound <= MOST_SCATTER * tolerance:
                 return averaged._kept_of(THINNINGS[0] * tolerance, longest, closed)
         for part in THINNINGS:

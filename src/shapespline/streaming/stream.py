@@ -71,7 +71,8 @@ class PointStream:
         self._points, self._executor = points, executor
         self._blocks: Sequence[Any] | None = None
         if hasattr(points, "to_delayed"):
-            points = points.rechunk({1: -1})
+            # Blocks of one size whatever the layout is: sums and thinning go chunk by chunk.
+            points = points.rechunk({0: CHUNK, 1: -1})
             self._blocks = points.to_delayed().ravel().tolist()
             self.begins = [0, *np.cumsum(points.chunks[0]).tolist()]
         else:

@@ -1,7 +1,7 @@
 """Values: immutable inputs and results. They know nothing but themselves."""
 
 from shapespline.values.contour import Contour, checked_contour
-from shapespline.values.curve import BSplineCurve, clamped_ends
+from shapespline.values.curve import BSplineCurve, clamped_ends, with_knot
 from shapespline.values.drawing import Drawing
 from shapespline.values.fit import Fit, Status
 from shapespline.values.knots import (
@@ -41,4 +41,5 @@ __all__ = [
     "greville_abscissae",
     "nesting_depth",
     "periodic_knots",
+    "with_knot",
 ]

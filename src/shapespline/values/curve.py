@@ -219,11 +219,17 @@ class BSplineCurve:
             return turn / np.hypot(first[:, 0], first[:, 1]) ** 3
 
     def to_scipy(self) -> BSpline:
-        """The same curve as a ``scipy.interpolate.BSpline`` with values of shape (2,)."""
+        """The same curve as a ``scipy.interpolate.BSpline`` with values of shape (2,).
+
+        A periodic curve whose seam is a multiple knot becomes its exact open form: scipy would look
+        for its end in an empty span and return zeros.
+        """
         from scipy.interpolate import BSpline
 
         extrapolate = "periodic" if self.periodic else True
-        return BSpline(self.knots, self.coefficients, self.degree, extrapolate=extrapolate)
+        n = len(self.coefficients)
+        same = self.clamped() if self.knots[n - 1] == self.knots[n] else self
+        return BSpline(same.knots, same.coefficients, same.degree, extrapolate=extrapolate)
 
     def clamped(self) -> BSplineCurve:
         """The same curve with clamped knots: of a periodic one its exact open form.
@@ -293,7 +299,7 @@ def clamped_ends(
     for at in (begin, end):
         missing = degree - int(np.count_nonzero(knots == at))
         for _ in range(max(missing, 0)):
-            knots, coefficients = _with_knot(knots, coefficients, degree, at)
+            knots, coefficients = with_knot(knots, coefficients, degree, at)
     first = int(np.searchsorted(knots, begin, side="right")) - degree
     last = int(np.searchsorted(knots, end, side="left"))
     inner = knots[first + degree : last]
@@ -301,7 +307,7 @@ def clamped_ends(
     return knots, coefficients[first - 1 : last].copy()
 
 
-def _with_knot(
+def with_knot(
     knots: FloatArray, coefficients: FloatArray, degree: int, at: float
 ) -> tuple[FloatArray, FloatArray]:
     """The same curve with one more knot (Boehm 1980)."""

@@ -163,7 +163,7 @@ class Fit:
                 kind if without_inner_knots else "spline",
                 spline.degree,
                 spline.knots,
-                spline.control_points,
+                spline.coefficients,
             ),
         )
 

@@ -119,5 +119,5 @@ def test_pieces(curve, kind, stored):
     (piece,) = fit.pieces
     assert (piece.kind, piece.degree) == (kind, curve.degree)
     assert_array_equal(piece.knots, curve.knots)
-    assert_array_equal(piece.control_points, curve.control_points)
+    assert_array_equal(piece.control_points, curve.coefficients)
     assert fit.n_stored_points == stored

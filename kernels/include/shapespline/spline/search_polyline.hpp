@@ -38,11 +38,37 @@ struct ArcPolyline {
     }
 };
 
+// Points nearer along the way than this part of all of it cannot be told apart by sums of knot
+// intervals (SPL-11).
+inline constexpr double kLeastStep = 1e-12;
+
+// A polyline with its arc lengths, which increase: points next to the one before are left out.
 inline ArcPolyline arc_polyline(std::span<const Vec2> points, bool closed) {
-    ArcPolyline out{closed, 0.0, {points.begin(), points.end()}, {0.0}};
-    for (std::size_t j = 1; j < points.size(); ++j)
-        out.at.push_back(out.at.back() + norm(points[j] - points[j - 1]));
-    out.total = out.at.back() + (closed ? norm(points.front() - points.back()) : 0.0);
+    double total = closed ? norm(points.front() - points.back()) : 0.0;
+    for (std::size_t j = 1; j < points.size(); ++j) total += norm(points[j] - points[j - 1]);
+    ArcPolyline out{closed, 0.0, {points.front()}, {0.0}};
+    const double least = kLeastStep * total;
+    double at = 0.0;
+    for (std::size_t j = 1; j < points.size(); ++j) {
+        at += norm(points[j] - points[j - 1]);
+        if (at - out.at.back() > least) {
+            out.points.push_back(points[j]);
+            out.at.push_back(at);
+        } else if (!closed && j + 1 == points.size() && out.size() > 1) {
+            out.points.back() = points[j];  // an open one ends where its data end
+            out.at.back() = at;
+        }
+    }
+    out.total = out.at.back();
+    if (!closed) return out;
+    const double seam = norm(points.front() - out.points.back());
+    if (seam > least || out.size() == 1) {
+        out.total += seam;
+    } else {
+        out.total = out.at.back();
+        out.points.pop_back();
+        out.at.pop_back();
+    }
     return out;
 }
 

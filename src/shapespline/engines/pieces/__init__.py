@@ -1,6 +1,7 @@
 """The pieces engine: lines, Beziers and small splines between nodes."""
 
 from shapespline.engines.pieces.constraints import Constraints, pinned_exactly
+from shapespline.engines.pieces.end_tangents import with_ends_turned
 from shapespline.engines.pieces.engine import (
     PIECE_DEGREE,
     TOLERANCE_FACTORS,
@@ -37,4 +38,5 @@ __all__ = [
     "search_lines",
     "search_pieces",
     "through_all",
+    "with_ends_turned",
 ]

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.engines.pieces.constraints import Constraints
-from shapespline.values import SMOOTH_TURN, Contour
+from shapespline.geometry import backwards, elevated
+from shapespline.values import EXACT_TURN, SMOOTH_TURN, Contour, Piece, with_knot
 
 if TYPE_CHECKING:
     from shapespline.engines.pieces.problem import PiecesProblem
     from shapespline.typing import FloatArray
-    from shapespline.values import Piece
 
 # Points of an extension, and its length in tolerances.
 N_EXTENSION, EXTENSION_LENGTH = 8, 20.0
@@ -76,3 +76,70 @@ def _turn(ends: FloatArray, direction: FloatArray) -> None:
     along = float(arm @ direction)
     if along > np.cos(NEARLY) * np.hypot(*arm):
         ends[1] = ends[0] + along * direction
+
+
+def with_ends_turned(
+    pieces: tuple[Piece, ...],
+    tangents: tuple[FloatArray | None, FloatArray | None],
+    length: float,
+    degree: int,
+) -> tuple[Piece, ...]:
+    """Pieces that begin and end in some directions: what is so long at an end turns into its own.
+
+    The last resort, where a search finds no curve with these tangents (PIE-24).
+
+    Examples
+    --------
+    >>> line = Piece("line", 1, np.array([0.0, 0, 1, 1]), np.array([[0.0, 0], [8, 0]]))
+    >>> turned = with_ends_turned((line,), (np.array([0.0, 1.0]), None), 3.0, 3)
+    >>> turned[0].control_points.tolist()
+    [[0.0, 0.0], [0.0, 1.0], [2.0, 0.0], [3.0, 0.0]]
+    """
+    begin, end = tangents
+    if begin is not None:
+        pieces = _begun_in(pieces, begin, length, degree)
+    if end is not None:
+        pieces = backwards(_begun_in(backwards(pieces), -end, length, degree))
+    return pieces
+
+
+def _begun_in(
+    pieces: tuple[Piece, ...], direction: FloatArray, length: float, degree: int
+) -> tuple[Piece, ...]:
+    """Pieces whose first is cut, and its beginning turned into a direction."""
+    first = pieces[0]
+    (ux, uy), (vx, vy) = direction, first.control_points[1] - first.control_points[0]
+    if abs(np.arctan2(ux * vy - uy * vx, ux * vx + uy * vy)) <= EXACT_TURN:
+        return pieces
+    span = float(first.knots[first.degree + 1])
+    speed = first.degree / span * float(np.hypot(vx, vy))
+    before, after = _cut(first, min(length / max(speed, length), 0.5 * span))
+    raised = elevated(before, max(before.degree, min(degree, 3)))
+    points = raised.control_points.copy()
+    points[1] = points[0] + np.hypot(*(points[1] - points[0])) * direction
+    turned = raised._replace(kind="bezier", control_points=points)
+    if raised.degree > 1:
+        return (turned, after, *pieces[1:])
+    # A line cannot turn: two of them go around, no farther away than a cubic would.
+    corner = points[0] + 0.25 * (points[1] - points[0])
+    end, knots = after.control_points[0], raised.knots
+    return (
+        Piece("line", 1, knots, np.array([points[0], corner])),
+        Piece("line", 1, knots, np.array([corner, end])),
+        after,
+        *pieces[1:],
+    )
+
+
+def _cut(piece: Piece, at: float) -> tuple[Piece, Piece]:
+    """The parts of a piece before and after a parameter in its first knot interval."""
+    p, knots, points = piece.degree, piece.knots, piece.control_points
+    for _ in range(p):
+        knots, points = with_knot(knots, points, p, at)
+    after = np.concatenate([[at], knots[p + 1 :]])
+    ends, last = np.repeat([0.0, 1.0], p + 1), len(after) > 2 * p + 2
+    kind = "line" if p == 1 else "spline" if last else "bezier"
+    return (
+        Piece("line" if p == 1 else "bezier", p, ends, points[: p + 1].copy()),
+        Piece(kind, p, (after - at) / (1.0 - at), points[p:].copy()),
+    )

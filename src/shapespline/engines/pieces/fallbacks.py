@@ -10,7 +10,7 @@ import numpy as np
 from shapespline import _kernels
 from shapespline.analysis import FEWEST_STRAIGHT, LEAST_TURN, STRAIGHT_PART
 from shapespline.engines.pieces.engine import TOLERANCE_FACTORS
-from shapespline.engines.pieces.search import BUDGETS, PiecesSolver
+from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, without_degenerate
 from shapespline.geometry import turn_between
 from shapespline.monitor import Monitor
 from shapespline.values import Piece
@@ -60,7 +60,8 @@ def search_lines(problem: PiecesProblem) -> tuple[Piece, ...]:
 def through_all(contour: Contour) -> tuple[Piece, ...]:
     """A line from each point to the next; it crosses itself only where the data do."""
     knots, polyline = np.array([0.0, 0.0, 1.0, 1.0]), contour.polyline
-    return tuple(Piece("line", 1, knots, polyline[i : i + 2]) for i in range(len(polyline) - 1))
+    lines = [Piece("line", 1, knots, polyline[i : i + 2]) for i in range(len(polyline) - 1)]
+    return without_degenerate(lines)
 
 
 def turns_of(pieces: Sequence[Piece], closed: bool) -> Iterator[float]:

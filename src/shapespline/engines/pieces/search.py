@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
 # A piece shorter than this part of the curve is degenerate: rounding made it.
 DEGENERATE_PART = 1e-12
+# Knots are whole parts of this: then 1 - u is exact, and pieces turned around twice are the same
+# (PIE-25).
+KNOT_GRID = 2.0**52
 # The search gives up a corner that the fit turns by less than this part of `LEAST_TURN`.
 RELEASE = 0.7
 # Control points move by at most this part of the tolerance to make a tangent exact. That moves a
@@ -139,6 +142,7 @@ def _unpacked(
     degrees: list[int], counts: list[int], knots: FloatArray, coordinates: FloatArray
 ) -> tuple[Piece, ...]:
     """Pieces from the kernel's arrays end to end."""
+    knots = np.round(knots * KNOT_GRID) / KNOT_GRID
     pieces = []
     k = m = 0
     points = coordinates.reshape(-1, 2)
@@ -147,15 +151,19 @@ def _unpacked(
         kind = "line" if degree == 1 else "bezier" if inner == 0 else "spline"
         pieces.append(Piece(kind, degree, knots[k : k + count + degree + 1], points[m : m + count]))
         k, m = k + count + degree + 1, m + count
-    return _without_degenerate_pieces(pieces)
+    return without_degenerate(pieces)
 
 
-def _without_degenerate_pieces(pieces: list[Piece]) -> tuple[Piece, ...]:
-    """The pieces without degenerate ones; the neighbours of those meet exactly."""
+def without_degenerate(pieces: list[Piece]) -> tuple[Piece, ...]:
+    """The pieces but for those of next to no length; their neighbours meet, the ends stay."""
     lengths = [piece.polygon_length for piece in pieces]
     least = DEGENERATE_PART * sum(lengths)
     kept = [p for p, length in zip(pieces, lengths, strict=True) if length > least]
-    if len(kept) < len(pieces):
-        for before, after in pairwise(kept):
-            after.control_points[0] = before.control_points[-1]
+    if len(kept) == len(pieces) or not kept:
+        return tuple(kept)
+    kept = [piece._replace(control_points=piece.control_points.copy()) for piece in kept]
+    kept[0].control_points[0] = pieces[0].control_points[0]
+    kept[-1].control_points[-1] = pieces[-1].control_points[-1]
+    for before, after in pairwise(kept):
+        after.control_points[0] = before.control_points[-1]
     return tuple(kept)

@@ -221,7 +221,10 @@ def _search(
 def _exported(
     search: _kernels.RemovalSearch, normalized: NormalizedContour, contour: Contour, degree: int
 ) -> BSplineCurve:
-    """The curve over [0, 1] in data units; the seam of a periodic one is a simple knot."""
+    """The curve over [0, 1] in data units.
+
+    The seam of a periodic one is a simple knot; a closed curve that has none is clamped.
+    """
     interval_list, coordinates = search.curve()
     intervals = np.array(interval_list)
     points = np.array(coordinates).reshape(-1, 2)
@@ -238,4 +241,5 @@ def _exported(
     period = np.concatenate([[0.0], np.cumsum(np.roll(intervals, -seam))])
     knots = periodic_knots(len(points), degree, period / period[-1])
     points = np.roll(points, degree - seam, axis=0)
-    return normalized.restored_curve(BSplineCurve(knots, points, degree, periodic=True))
+    curve = normalized.restored_curve(BSplineCurve(knots, points, degree, periodic=True))
+    return curve if simple.any() else curve.clamped()

@@ -16,8 +16,10 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
     from shapespline.values import Contour, Fit
 
-# Repairs look at curves as polylines within this part of their tolerance.
-SAMPLING_PART = 0.02
+# Repairs look at curves as polylines within this part of their tolerance (FIT-17).
+SAMPLING_PART = 0.002
+# Beside corners chords are shorter and shorter, by these parts.
+HALVINGS = 0.5 ** np.arange(2, 21, 2)
 # A node is first looked for among points whose arc length differs from its own by at most this part
 # of the piece before it and so many tolerances (FIT-13).
 ALONG, TOLERANCES = 0.3, 4.0
@@ -109,9 +111,14 @@ def pieces_of(fit: Fit) -> tuple[Piece, ...]:
 def shares_of(x: FloatArray, y: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
     """Where on segments (u, v) the points nearest to others are, in parts of the segments.
 
-    The others are (x, y) from where the segments begin.
+    The others are (x, y) from where the segments begin. Of a segment without length, such as that
+    from the last point to the first of open data whose ends coincide, the part is 0.
     """
-    return np.clip((x * u + y * v) / (u * u + v * v), 0.0, 1.0)
+    lengths_sq = u * u + v * v
+    along = x * u + y * v
+    return np.clip(
+        np.divide(along, lengths_sq, out=np.zeros_like(along), where=lengths_sq > 0), 0.0, 1.0
+    )
 
 
 def located(
@@ -138,9 +145,26 @@ def located(
     )
 
 
+def line_of(curve: BSplineCurve, tolerance: float, corners: FloatArray) -> FloatArray:
+    """A curve as a polyline, finer and finer towards corners: what meets there may cross beside."""
+    points, parameters = chords(curve, SAMPLING_PART * tolerance)
+    if curve.degree == 1 or not len(corners):
+        return points
+    steps = np.diff(parameters)
+    before = np.minimum(np.searchsorted(parameters, corners), len(steps)) - 1
+    beside = [
+        (corners[:, None] + sign * steps[at][:, None] * HALVINGS).ravel()
+        for at, sign in ((before, -1), ((before + 1) % len(steps), 1))
+    ]
+    more = np.setdiff1d(np.concatenate(beside), parameters)
+    more = more[(more > parameters[0]) & (more < parameters[-1])]
+    at = np.searchsorted(parameters, more)
+    return np.insert(points, at, curve(more), axis=0)
+
+
 def _chords(piece: Piece, tolerance: float) -> FloatArray:
     """A piece as a polyline."""
-    return chords(curve_of(piece), SAMPLING_PART * tolerance)[0]
+    return line_of(curve_of(piece), tolerance, piece.knots[[0, -1]])
 
 
 def _length(line: FloatArray) -> float:

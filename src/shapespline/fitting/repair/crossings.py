@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.analysis import canonical_reading
 from shapespline.engines.pieces import through_all
 from shapespline.fitting.repair.assignment import (
-    SAMPLING_PART,
     AssignedPiece,
     PieceAssignment,
     curve_of,
+    line_of,
 )
 from shapespline.fitting.repair.clearance import Sides, moved
 from shapespline.fitting.repair.refit import (
@@ -31,7 +32,15 @@ from shapespline.fitting.repair.refit import (
     windows_around,
 )
 from shapespline.fitting.verify import verified_fit
-from shapespline.geometry import chords, crossing_pairs, joined, nearest, self_crossings
+from shapespline.geometry import (
+    backwards,
+    crossing_pairs,
+    joined,
+    nearest,
+    reversed_curve,
+    self_crossings,
+)
+from shapespline.values import Contour
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -39,7 +48,7 @@ if TYPE_CHECKING:
     from shapespline.fitting.repair.assignment import DataRun
     from shapespline.fitting.request import Request
     from shapespline.typing import FloatArray
-    from shapespline.values import Contour, Fit
+    from shapespline.values import Fit
 
 
 class Step(NamedTuple):
@@ -70,10 +79,51 @@ CROSSES = "it crosses a curve where the data do not"
 
 
 def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
-    """A fit of one outline in pieces that crosses itself no more than its data."""
+    """A fit of one outline in pieces that crosses itself no more than its data.
+
+    Points are read in their canonical order: what is repaired does not depend on which of them
+    comes first and which way they run. Where it cannot be repaired its status says so.
+    """
     if not request.is_plain or request.style.form == "spline":
+        return told(fit)
+    if not self_crossings(_line(fit)):
         return fit
-    return uncrossed([request.contour], [fit], request, ask)[0]
+    contour = request.contour
+    start, step = canonical_reading(contour.points, closed=contour.closed)
+    order = (start + step * np.arange(len(contour))) % len(contour)
+    read = Contour.trusted(contour.points[order], contour.closed, contour.accuracy)
+    turned = _turned(replace(fit, contour=read), step)
+    (found,) = uncrossed([read], [turned], request, ask)
+    if found is turned:
+        return fit
+    if found.sections is turned.sections:
+        return replace(fit, status=found.status)
+    pieces = _turned(found, step).sections
+    again = verified_fit(
+        contour,
+        joined(pieces, fit.degree),
+        tolerance=fit.tolerance,
+        method=fit.method,
+        sections=pieces,
+        history=fit.history,
+    )
+    return _told(again) if found.status.value.endswith(CROSSES) else again
+
+
+def told(fit: Fit) -> Fit:
+    """The fit; its status says so if its curve crosses itself more often than its data do."""
+    count = self_crossings(_line(fit))
+    return _told(fit) if count and count > self_crossings(fit.contour.polyline) else fit
+
+
+def _turned(fit: Fit, step: int) -> Fit:
+    """The curve of a fit, run through the other way where points are read by steps of -1."""
+    if step > 0:
+        return fit
+    pieces = backwards(fit.sections)
+    # Joined anew: to the bit what pieces that were found in this order make.
+    spline = joined(pieces, fit.degree) if pieces else reversed_curve(fit.spline)
+    return replace(fit, spline=spline, sections=pieces)
 
 
 def uncrossed(
@@ -122,7 +172,7 @@ def uncrossed(
 
 def _line(fit: Fit) -> FloatArray:
     """A fit as a polyline."""
-    return chords(fit.spline, SAMPLING_PART * fit.tolerance)[0]
+    return line_of(fit.spline, fit.tolerance, fit.corners)
 
 
 def _no_larger_than_data(fit: Fit) -> Fit:
@@ -177,7 +227,7 @@ def _new_crossings(
     return pairs | {
         (index, index)
         for index, line in enumerate(lines)
-        if self_crossings(line) > self_crossings(data[index])
+        if (count := self_crossings(line)) and count > self_crossings(data[index])
     }
 
 

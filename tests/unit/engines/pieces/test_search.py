@@ -11,8 +11,8 @@ from shapespline.engines.pieces import Constraints, PiecesProblem
 from shapespline.engines.pieces.search import (
     BUDGETS,
     PiecesSolver,
-    _without_degenerate_pieces,
     n_points_of,
+    without_degenerate,
 )
 from shapespline.monitor import Monitor
 
@@ -59,7 +59,7 @@ def test_pieces_without_length_are_left_out():
     first = piece(LINE, [(0, 0), (4, 0)])
     dot = piece(CUBIC, [(4, 0), (4, 0), (4, 1e-14), (4, 2e-14)])
     last = piece(LINE, [(4, 2e-14), (4, 3)])
-    found = _without_degenerate_pieces([first, dot, last])
+    found = without_degenerate([first, dot, last])
     assert [one.kind for one in found] == ["line", "line"]
     assert not gaps(found, closed=False).any()
-    assert len(_without_degenerate_pieces([first, last])) == 2
+    assert len(without_degenerate([first, last])) == 2

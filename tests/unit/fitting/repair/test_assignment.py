@@ -42,3 +42,15 @@ def test_points_that_scatter_go_with_their_pieces():
         # A point beside a node may be given to the neighbour of its piece.
         off = np.sqrt(nearest(curve_of(part.piece), own).distances_sq)
         assert off.max() <= 3 * tolerance
+
+
+def test_a_segment_without_length_is_no_zero_over_zero():
+    """Open data that end where they begin have one, once they are read from another point on."""
+    points = np.array([(0.0, 0), (4, 0), (4, 3), (0, 3), (0, 0)])
+    contour = ss.Contour(points, closed=False)
+    data = DataRun(points, contour.arc_length).turned(2, contour.length)
+    knots = np.array([0.0, 0.0, 1.0, 1.0])
+    nodes = np.array([(4.0, 3), (0, 3), (0, 0), (4, 0)])
+    pieces = [Piece("line", 1, knots, nodes[i : i + 2]) for i in range(3)]
+    parts = located(data, pieces, 0.1)
+    assert [(part.begin, part.end) for part in parts] == [(0, 1), (1, 3), (3, 5)]

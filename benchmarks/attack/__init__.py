@@ -1,0 +1,1 @@
+"""The attack: shapes and options drawn at random, every fit judged by the outside checker."""
