@@ -7,6 +7,7 @@ import re
 
 # What the library says -> what was typed. Options that the command line lacks are not spoken of.
 WORDS = (
+    (r"(--[\w-]+(?: \S+)?) \(\w+=[^)]*\)", r"\1"),
     (r"end_tangents, through and symmetric act\b", "--symmetric acts"),
     (r"end_tangents and through act\b", "directions and points act"),
     (r"\bn_control_points\b(?:=(\d+))?", r"--control-points \1"),
@@ -16,7 +17,10 @@ WORDS = (
     ),
     (r"\b(corners|form|ends|effort|unit)='([^']*)'", r"--\1 \2"),
     (r"\bwith weights or form=\S+", "with --form spline"),
-    (r"\b(time_limit|arc_tolerance|min_area|y_down|shared_boundaries)\b(?:=(\S+))?", r"--\1 \2"),
+    (
+        r"\b(time_limit|arc_tolerance|min_area|y_down|shared_boundaries)\b(?:=([^\s,;)]+))?",
+        r"--\1 \2",
+    ),
     (r"\bdpi, pixels per inch, or scale\b", "--dpi, --width or --scale"),
 )
 PATTERNS = tuple((re.compile(pattern), said) for pattern, said in WORDS)
@@ -29,6 +33,8 @@ def own_words(sentence: str) -> str:
     --------
     >>> own_words("n_control_points must be at least degree + 1 = 4, got 3")
     '--control-points must be at least degree + 1 = 4, got 3'
+    >>> own_words("left out as noise: --min-area 0 (min_area=0) keeps them")
+    'left out as noise: --min-area 0 keeps them'
     >>> own_words("corners and effort do not act with time_limit=3")
     'corners and effort do not act with --time-limit 3'
     """
