@@ -15,8 +15,16 @@ from shapespline.geometry.exact import Outlines, exact_drawing
 from shapespline.geometry.flattening import chords, sampled
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
 from shapespline.geometry.joining import elevated, joined, turn_between
+from shapespline.geometry.measures import Box, bounds, contains, enclosed_area, evenly_spaced
+from shapespline.geometry.moving import (
+    reversed_fit,
+    split_fit,
+    transformed_drawing,
+    transformed_fit,
+)
 from shapespline.geometry.nearest import nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
+from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
 from shapespline.geometry.polygons import polygon_drawing
 from shapespline.geometry.reversal import backwards, reversed_curve
@@ -25,34 +33,46 @@ from shapespline.geometry.scaling import in_unit
 __all__ = [
     "FLOOR",
     "PARAMETRIZATIONS",
+    "Box",
     "CentredCurve",
     "Comparison",
     "Distances",
+    "OffsetLine",
     "Outlines",
+    "Source",
     "arc_polyline",
     "backwards",
+    "bounds",
     "chords",
     "compare",
     "confidence_band",
     "containing",
+    "contains",
     "crossing_pairs",
     "curve_motion",
     "elevated",
+    "enclosed_area",
+    "evenly_spaced",
     "exact_drawing",
     "greville_matched",
     "in_unit",
     "joined",
     "nearest",
     "nondecreasing",
+    "offset_lines",
     "parametrize",
     "parents_of",
     "polygon_drawing",
     "reverse_distance",
     "reversed_curve",
+    "reversed_fit",
     "rounding",
     "sampled",
     "self_crossings",
     "signed_area",
+    "split_fit",
+    "transformed_drawing",
+    "transformed_fit",
     "turn_between",
     "two_sided_distance",
     "unit_normals",

@@ -7,17 +7,25 @@ from typing import TYPE_CHECKING
 
 from shapespline.errors import InvalidInputError
 from shapespline.units import checked_unit
-from shapespline.values.shape import checked_colors, checked_parents, nesting_depth
+from shapespline.values.shape import checked_colors, checked_parents, counted, nesting_depth
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    import numpy as np
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from shapespline.geometry import Box
+    from shapespline.typing import ArrayLike
     from shapespline.values.view_box import ViewBox
+from shapespline.values.equality import ByValue
 from shapespline.values.fit import Fit
+from shapespline.values.shown import Shown
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Drawing:
+class Drawing(ByValue, Shown):
     """Fits with the nesting of the shape they came from.
 
     Parameters
@@ -64,9 +72,163 @@ class Drawing:
     def __len__(self) -> int:
         return len(self.fits)
 
+    def __repr__(self) -> str:
+        fits = self.fits
+        n_points = sum(fit.n_stored_points for fit in fits)
+        largest = max(fit.hausdorff_distance for fit in fits)
+        unit = f", {self.unit}" if self.unit else ""
+        return (
+            f"Drawing({counted(len(fits), 'curve')}, {n_points} stored points, distance"
+            f" {largest:.3g}{unit}, {sum(fit.kept for fit in fits)} of {len(fits)} kept)"
+        )
+
     def is_hole(self, index: int) -> bool:
         """Whether the fit lies inside an odd number of others."""
         return nesting_depth(self.parents, index) % 2 == 1
 
     def __iter__(self) -> Iterator[Fit]:
         return iter(self.fits)
+
+    # Measures of the curves
+
+    @property
+    def length(self) -> float:
+        """Arc length of all curves together, data units."""
+        return sum(fit.length for fit in self.fits)
+
+    @property
+    def area(self) -> float:
+        """Area of the silhouette, data units squared: outlines without their holes.
+
+        Exact up to rounding where no curve crosses itself or another; open curves have none.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> square = ss.Contour([(0, 0), (2, 0), (2, 2), (0, 2)], closed=True).resampled(80)
+        >>> hole = ss.Contour([(0.5, 0.5), (1, 0.5), (1, 1), (0.5, 1)], closed=True).resampled(40)
+        >>> drawing = ss.fit_shape(ss.Shape([square, hole], [-1, 0]), tolerance=0.01)
+        >>> round(drawing.area, 9), round(drawing.length, 9)
+        (3.75, 10.0)
+        >>> drawing.contains([(0.2, 0.2), (0.7, 0.7)]).tolist()
+        [True, False]
+        """
+        closed = [(index, fit) for index, fit in enumerate(self.fits) if fit.closed]
+        return sum((-1.0 if self.is_hole(index) else 1.0) * fit.area for index, fit in closed)
+
+    @property
+    def bounds(self) -> Box:
+        """The box (x_min, y_min, x_max, y_max) of all curves, data units."""
+        from shapespline.geometry import bounds
+
+        return bounds([fit.spline for fit in self.fits])
+
+    def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
+        """Which points lie in the silhouette: inside an odd number of closed curves.
+
+        Parameters
+        ----------
+        points : array_like, shape (k, 2) or (2,)
+            Data units. One on a curve itself, up to rounding, may count as either.
+
+        Returns
+        -------
+        ndarray of bool, shape (k,)
+
+        Raises
+        ------
+        InvalidInputError
+            If the points are no finite (k, 2) array.
+        """
+        from shapespline.geometry import contains
+
+        return contains([fit.spline for fit in self.fits if fit.closed], points)
+
+    def transformed(self, matrix: ArrayLike) -> Drawing:
+        """The image of every fit under an affine map; see `Fit.transformed`.
+
+        The frame becomes the box around its image; the unit stays.
+
+        Parameters
+        ----------
+        matrix : array_like, shape (2, 2), (2, 3) or (3, 3)
+
+        Raises
+        ------
+        InvalidInputError
+            If the matrix has another shape, is not finite, or flattens the plane.
+        """
+        from shapespline.geometry import transformed_drawing
+
+        return transformed_drawing(self, matrix)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the data, the control polygons and the curves into axes of matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            New ones of pyplot's when not given.
+
+        Returns
+        -------
+        matplotlib Axes
+
+        Raises
+        ------
+        MissingExtraError
+            If matplotlib is not installed.
+        InvalidInputError
+            If ``ax`` is no Axes.
+        """
+        from shapespline.plotting import plot_on_axes
+
+        return plot_on_axes(self.fits, ax)
+
+    def offset(self, distance: float, *, tolerance: float | None = None) -> Drawing:
+        """The curves at a distance from these, holes the other way, fitted again.
+
+        Parameters
+        ----------
+        distance : float
+            Data units. The silhouette grows by a positive one, its holes shrink; open curves are
+            offset each to its left.
+        tolerance : float, optional
+            Largest distance between the result and the true offset, both ways, data units; by
+            default the largest of the fits, and at least 1e-4 of the box diagonal.
+
+        Returns
+        -------
+        Drawing
+            With its own nesting; frame and unit stay. Outlines that grow into one another
+            are one.
+
+        Raises
+        ------
+        InvalidInputError
+            If the distance is 0 or not finite, the tolerance is not positive, closed curves cross
+            themselves or each other, or the offset cannot be closed at so coarse a tolerance.
+        DegenerateContourError
+            If nothing is left.
+
+        Notes
+        -----
+        The true offset is every point at the distance from the nearest point of the curves, on the
+        side asked for: what would cross itself is cut off there, and corners that turn away are
+        rounded by arcs. Outlines smaller than a third of the tolerance are left out. The distances
+        of the fits are those to the true offset: that of the refit to a dense polyline of it, which
+        is certified, and the allowance for that polyline (sampled, not a rigorous bound).
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> square = ss.Contour([(0, 0), (4, 0), (4, 4), (0, 4)], closed=True).resampled(80)
+        >>> hole = ss.Contour([(1, 1), (3, 1), (3, 3), (1, 3)], closed=True).resampled(80)
+        >>> drawing = ss.fit_shape(ss.Shape([square, hole], [-1, 0]), tolerance=0.01)
+        >>> shrunk = drawing.offset(-0.25)
+        >>> len(shrunk), round(shrunk.area)
+        (2, 6)
+        """
+        from shapespline.fitting import offset_drawing
+
+        return offset_drawing(self, distance, tolerance=tolerance)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
@@ -19,7 +19,11 @@ if TYPE_CHECKING:
     from shapespline.values.curve import BSplineCurve
     from shapespline.values.snapshot import Snapshot
     from shapespline.values.uncertainty import Band, Uncertainty
+from shapespline.values.equality import ByValue
+from shapespline.values.fit_methods import FitMethods
 from shapespline.values.piece import CORNER_TURN, Piece
+from shapespline.values.shape import counted
+from shapespline.values.shown import Shown
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,8 +62,11 @@ Status.CANCELLED = Status("CANCELLED", "the callback cancelled the fit")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Fit:
+class Fit(ByValue, Shown, FitMethods):
     """A curve fitted to a contour, and what is known about it.
+
+    Fits are equal when curve, data, figures and the name of the status are; their histories, which
+    tell seconds, may differ.
 
     Attributes
     ----------
@@ -105,6 +112,35 @@ class Fit:
     outliers: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64), repr=False)
     snapshots: tuple[Snapshot, ...] = field(default=(), repr=False)
     uncertainty: Uncertainty | None = field(default=None, repr=False)
+
+    # How the iterations went, with their seconds, is no part of the result.
+    _BESIDE: ClassVar = frozenset({"history", "snapshots", "uncertainty"})
+
+    def __post_init__(self) -> None:
+        self._protect()
+
+    def _protect(self) -> None:
+        """Make the arrays read-only, as those of the curve and the contour are."""
+        held = [array for piece in self.sections for array in (piece.knots, piece.control_points)]
+        for array in (self.parameters, self.outliers, *held):
+            array.setflags(write=False)
+
+    # Between processes go the fields alone, and come back read-only.
+    def __getstate__(self) -> dict[str, object]:
+        return {item.name: getattr(self, item.name) for item in fields(self)}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        for name, value in state.items():
+            object.__setattr__(self, name, value)
+        self._protect()
+
+    def __repr__(self) -> str:
+        kind = "closed" if self.closed else "open"
+        return (
+            f"Fit({kind}, {counted(len(self.pieces), 'piece')} of degree {self.degree},"
+            f" {self.n_stored_points} stored points, distance {self.hausdorff_distance:.3g},"
+            f" tolerance {self.tolerance:.3g}, {self.status.name})"
+        )
 
     @cached_property
     def curve(self) -> BSpline:

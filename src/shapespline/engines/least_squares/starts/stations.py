@@ -169,8 +169,6 @@ def _apart(
 ) -> IntArray:
     """Rounded places moved so that they differ: each stays in its gap, which begins at an edge."""
     places = np.where(part == 0, edges[gap], places)
-    if (np.diff(places) > 0).all():
-        return places
     # Each place less its number in the gap must not fall, and leave room for those after it.
     lowest, highest = edges[gap], edges[gap + 1] - parts[gap]
     shifted = np.clip(places - part, lowest, highest)
