@@ -126,6 +126,11 @@ def lies_on_itself(polyline: Array) -> bool:
         # A neighbour that folds back lies on the middle of a side.
         if (away[apart > 0] <= near).any():
             return True
+        offset = begin[i] - begin
+        share = (offset * side).sum(axis=1) / np.maximum((side**2).sum(axis=1), 1e-300)
+        away = np.hypot(*(offset - np.clip(share, 0, 1)[:, None] * side).T)
+        if (away[apart > 1] <= near).any():
+            return True
     return False
 
 
@@ -133,8 +138,9 @@ def _constraints(fit: ss.Fit, points: Array, options: dict[str, Any]) -> set[str
     found = set()
     ends = [piece.control_points[[0, -1]] for piece in fit.pieces]
     nodes = np.concatenate(ends)
+    slack = ROUNDING * float(np.abs(points).max())  # points a rounding apart are one
     for at in options.get("through", []):
-        if not (nodes == points[at]).all(axis=1).any():
+        if np.abs(nodes - points[at]).max(axis=1).min() > slack:
             found.add("index")
     tangents = options.get("end_tangents", (None, None))
     first, last = fit.pieces[0].control_points, fit.pieces[-1].control_points

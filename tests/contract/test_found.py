@@ -243,3 +243,10 @@ def test_two_lines_turn_into_a_tangent_within_the_tolerance():
         points, closed=False, tolerance=0.01, degree=1, end_tangents=tangents, through=[30]
     )
     assert fit.status == ss.Status.KEPT
+
+
+def test_a_tangent_far_from_the_origin_is_met_but_for_rounding():
+    rng = np.random.default_rng(4)
+    points = np.cumsum(rng.normal(0, 1, (60, 2)), axis=0) + 1e8
+    fit = ss.fit_curve(points, closed=False, tolerance=0.1, end_tangents=((0.65, -0.76), (0, 1)))
+    assert fit.status == ss.Status.KEPT

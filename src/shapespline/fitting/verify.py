@@ -28,6 +28,10 @@ if TYPE_CHECKING:
     from shapespline.values import BSplineCurve, Contour, Piece
 
 
+# Roundings of the coordinates of two control points, in parts of the larger.
+ROUNDINGS, TINY = 4 * np.finfo(float).eps, np.finfo(float).tiny
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Candidate:
     """A curve that a strategy proposes: pieces, or one spline.
@@ -130,8 +134,11 @@ def _tangent_error(pieces: Sequence[Piece], constraints: Constraints) -> float:
     for wanted, (a, b) in zip(constraints.tangents, (first, last), strict=True):
         if wanted is not None:
             (ux, uy), (vx, vy) = wanted, b - a
-            errors.append(abs(float(np.arctan2(ux * vy - uy * vx, ux * vx + uy * vy))))
-    return max(errors) if max(errors) > EXACT_TURN else 0.0
+            error = abs(float(np.arctan2(ux * vy - uy * vx, ux * vx + uy * vy)))
+            # Far from the origin coordinates have few digits left for a short arm.
+            rounding = ROUNDINGS * np.abs(b).max() / max(float(np.hypot(vx, vy)), TINY)
+            errors.append(error if error > max(EXACT_TURN, rounding) else 0.0)
+    return max(errors)
 
 
 def verified_fit(
