@@ -2,6 +2,7 @@
 
 from shapespline.formats.atomic import check_target, write_atomically
 from shapespline.formats.pieces import bezier
+from shapespline.formats.preview import html_preview, svg_preview
 from shapespline.formats.registry import (
     FORMATS,
     Format,
@@ -18,8 +19,10 @@ __all__ = [
     "bezier",
     "check_output",
     "check_target",
+    "html_preview",
     "read",
     "readable",
+    "svg_preview",
     "writable",
     "write",
     "write_atomically",

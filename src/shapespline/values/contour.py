@@ -21,6 +21,7 @@ from shapespline.errors import (
     caller_level,
 )
 from shapespline.validation import float_array, is_number
+from shapespline.values.shown import Shown
 
 if TYPE_CHECKING:
     from shapespline.typing import ArrayLike, FloatArray, IntArray
@@ -114,7 +115,7 @@ def _looks_closed(points: FloatArray) -> bool:
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Contour:
+class Contour(Shown):
     """One outline: ordered points in the plane, open or closed.
 
     Consecutive equal points are dropped (with a :class:`DroppedPointsWarning`); the repeated
@@ -263,6 +264,10 @@ class Contour:
 
     def __len__(self) -> int:
         return len(self.points)
+
+    def __repr__(self) -> str:
+        kind = "closed" if self.closed else "open"
+        return f"Contour({kind}, {len(self)} points, length {self.length:.6g})"
 
     @property
     def n_given(self) -> int:

@@ -116,6 +116,10 @@ class BSplineCurve:
     def __setstate__(self, state: tuple[FloatArray, FloatArray, int, bool]) -> None:
         self._set(*state)
 
+    def __repr__(self) -> str:
+        kind = "periodic" if self.periodic else "clamped"
+        return f"BSplineCurve({kind}, degree {self.degree}, {self.n_control_points} control points)"
+
     @property
     def n_control_points(self) -> int:
         """Number of distinct control points."""

@@ -7,17 +7,18 @@ from typing import TYPE_CHECKING
 
 from shapespline.errors import InvalidInputError
 from shapespline.units import checked_unit
-from shapespline.values.shape import checked_colors, checked_parents, nesting_depth
+from shapespline.values.shape import checked_colors, checked_parents, counted, nesting_depth
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from shapespline.values.view_box import ViewBox
 from shapespline.values.fit import Fit
+from shapespline.values.shown import Shown
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Drawing:
+class Drawing(Shown):
     """Fits with the nesting of the shape they came from.
 
     Parameters
@@ -63,6 +64,16 @@ class Drawing:
 
     def __len__(self) -> int:
         return len(self.fits)
+
+    def __repr__(self) -> str:
+        fits = self.fits
+        n_points = sum(fit.n_stored_points for fit in fits)
+        largest = max(fit.hausdorff_distance for fit in fits)
+        unit = f", {self.unit}" if self.unit else ""
+        return (
+            f"Drawing({counted(len(fits), 'curve')}, {n_points} stored points, distance"
+            f" {largest:.3g}{unit}, {sum(fit.kept for fit in fits)} of {len(fits)} kept)"
+        )
 
     def is_hole(self, index: int) -> bool:
         """Whether the fit lies inside an odd number of others."""

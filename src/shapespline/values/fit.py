@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from shapespline.values.snapshot import Snapshot
     from shapespline.values.uncertainty import Band, Uncertainty
 from shapespline.values.piece import CORNER_TURN, Piece
+from shapespline.values.shape import counted
+from shapespline.values.shown import Shown
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +60,7 @@ Status.CANCELLED = Status("CANCELLED", "the callback cancelled the fit")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Fit:
+class Fit(Shown):
     """A curve fitted to a contour, and what is known about it.
 
     Attributes
@@ -105,6 +107,14 @@ class Fit:
     outliers: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64), repr=False)
     snapshots: tuple[Snapshot, ...] = field(default=(), repr=False)
     uncertainty: Uncertainty | None = field(default=None, repr=False)
+
+    def __repr__(self) -> str:
+        kind = "closed" if self.closed else "open"
+        return (
+            f"Fit({kind}, {counted(len(self.pieces), 'piece')} of degree {self.degree},"
+            f" {self.n_stored_points} stored points, distance {self.hausdorff_distance:.3g},"
+            f" tolerance {self.tolerance:.3g}, {self.status.name})"
+        )
 
     @cached_property
     def curve(self) -> BSpline:

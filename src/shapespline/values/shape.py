@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from shapespline.values.view_box import ViewBox
 
 from shapespline.values.contour import Contour, checked_contour
+from shapespline.values.shown import Shown
 
 _COLOR = re.compile("#[0-9a-f]{6}")
 
@@ -43,6 +44,17 @@ def checked_parents(parents: Sequence[int] | None, count: int) -> tuple[int, ...
         if nesting_depth(parents, child) > count:
             raise InvalidInputError(f"parents must not run in a circle, got one through {child}")
     return parents
+
+
+def counted(count: int, noun: str) -> str:
+    """A number and its noun.
+
+    Examples
+    --------
+    >>> counted(1, "contour"), counted(2, "contour")
+    ('1 contour', '2 contours')
+    """
+    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def nesting_depth(parents: Sequence[int], index: int) -> int:
@@ -75,7 +87,7 @@ def checked_colors(colors: Sequence[str | None] | None, count: int) -> tuple[str
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Shape:
+class Shape(Shown):
     """What a file holds: contours and which lies directly inside which.
 
     Parameters
@@ -138,6 +150,11 @@ class Shape:
 
     def __iter__(self) -> Iterator[Contour]:
         return iter(self.contours)
+
+    def __repr__(self) -> str:
+        n_points = sum(map(len, self.contours))
+        unit = f", {self.unit}" if self.unit else ""
+        return f"Shape({counted(len(self), 'contour')}, {n_points} points{unit})"
 
     def is_hole(self, index: int) -> bool:
         """Whether the contour lies inside an odd number of others."""
