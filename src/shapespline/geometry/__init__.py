@@ -15,6 +15,7 @@ from shapespline.geometry.exact import Outlines, exact_drawing
 from shapespline.geometry.flattening import chords, sampled
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
 from shapespline.geometry.joining import elevated, joined, turn_between
+from shapespline.geometry.measures import Box, bounds, contains, enclosed_area, evenly_spaced
 from shapespline.geometry.nearest import nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
@@ -25,19 +26,24 @@ from shapespline.geometry.scaling import in_unit
 __all__ = [
     "FLOOR",
     "PARAMETRIZATIONS",
+    "Box",
     "CentredCurve",
     "Comparison",
     "Distances",
     "Outlines",
     "arc_polyline",
     "backwards",
+    "bounds",
     "chords",
     "compare",
     "confidence_band",
     "containing",
+    "contains",
     "crossing_pairs",
     "curve_motion",
     "elevated",
+    "enclosed_area",
+    "evenly_spaced",
     "exact_drawing",
     "greville_matched",
     "in_unit",

@@ -12,6 +12,11 @@ from shapespline.values.shape import checked_colors, checked_parents, counted, n
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from shapespline.geometry import Box
+    from shapespline.typing import ArrayLike
     from shapespline.values.view_box import ViewBox
 from shapespline.values.fit import Fit
 from shapespline.values.shown import Shown
@@ -81,3 +86,58 @@ class Drawing(Shown):
 
     def __iter__(self) -> Iterator[Fit]:
         return iter(self.fits)
+
+    # Measures of the curves
+
+    @property
+    def length(self) -> float:
+        """Arc length of all curves together, data units."""
+        return sum(fit.length for fit in self.fits)
+
+    @property
+    def area(self) -> float:
+        """Area of the silhouette, data units squared: outlines without their holes.
+
+        Exact up to rounding where no curve crosses itself or another; open curves have none.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> square = ss.Contour([(0, 0), (2, 0), (2, 2), (0, 2)], closed=True).resampled(80)
+        >>> hole = ss.Contour([(0.5, 0.5), (1, 0.5), (1, 1), (0.5, 1)], closed=True).resampled(40)
+        >>> drawing = ss.fit_shape(ss.Shape([square, hole], [-1, 0]), tolerance=0.01)
+        >>> round(drawing.area, 9), round(drawing.length, 9)
+        (3.75, 10.0)
+        >>> drawing.contains([(0.2, 0.2), (0.7, 0.7)]).tolist()
+        [True, False]
+        """
+        closed = [(index, fit) for index, fit in enumerate(self.fits) if fit.closed]
+        return sum((-1.0 if self.is_hole(index) else 1.0) * fit.area for index, fit in closed)
+
+    @property
+    def bounds(self) -> Box:
+        """The box (x_min, y_min, x_max, y_max) of all curves, data units."""
+        from shapespline.geometry import bounds
+
+        return bounds([fit.spline for fit in self.fits])
+
+    def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
+        """Which points lie in the silhouette: inside an odd number of closed curves.
+
+        Parameters
+        ----------
+        points : array_like, shape (k, 2) or (2,)
+            Data units. One on a curve itself, up to rounding, may count as either.
+
+        Returns
+        -------
+        ndarray of bool, shape (k,)
+
+        Raises
+        ------
+        InvalidInputError
+            If the points are no finite (k, 2) array.
+        """
+        from shapespline.geometry import contains
+
+        return contains([fit.spline for fit in self.fits if fit.closed], points)

@@ -11,8 +11,10 @@ import numpy as np
 from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
     from scipy.interpolate import BSpline
 
+    from shapespline.geometry import Box
     from shapespline.monitor import Iteration
     from shapespline.typing import ArrayLike, FloatArray, IntArray
     from shapespline.values.contour import Contour
@@ -223,3 +225,115 @@ class Fit(Shown):
     def kept(self) -> bool:
         """Whether both bounds are within the tolerance."""
         return max(self.max_distance, self.hausdorff_distance) <= self.tolerance
+
+    # Measures of the curve
+
+    @property
+    def length(self) -> float:
+        """Arc length of the curve, data units; exact to rounding unless its speed nears zero."""
+        return self.spline.length()
+
+    @property
+    def area(self) -> float:
+        """Area within a closed curve, data units squared, exact up to rounding.
+
+        Of a curve that crosses itself, parts that run the other way count negative.
+
+        Raises
+        ------
+        InvalidInputError
+            If the curve is open.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> square = ss.Contour([(0, 0), (2, 0), (2, 2), (0, 2)], closed=True).resampled(80)
+        >>> round(ss.fit_curve(square, tolerance=0.01).area, 9)
+        4.0
+        """
+        from shapespline.geometry import enclosed_area
+
+        self._check_closed("area")
+        return abs(enclosed_area(self.spline))
+
+    @property
+    def bounds(self) -> Box:
+        """The box (x_min, y_min, x_max, y_max) of the curve, data units, exact up to rounding.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> fit = ss.fit_curve([(0, 0), (4, 0), (4, 3)], closed=False, tolerance=0.01)
+        >>> fit.bounds
+        Box(x_min=0.0, y_min=0.0, x_max=4.0, y_max=3.0)
+        """
+        from shapespline.geometry import bounds
+
+        return bounds([self.spline])
+
+    def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
+        """Which points lie inside a closed curve, by the even-odd rule.
+
+        Parameters
+        ----------
+        points : array_like, shape (k, 2) or (2,)
+            Data units. One on the curve itself, up to rounding, may count as either.
+
+        Returns
+        -------
+        ndarray of bool, shape (k,)
+
+        Raises
+        ------
+        InvalidInputError
+            If the curve is open, or the points are no finite (k, 2) array.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> square = ss.Contour([(0, 0), (2, 0), (2, 2), (0, 2)], closed=True).resampled(80)
+        >>> ss.fit_curve(square, tolerance=0.01).contains([(1, 1), (3, 1)]).tolist()
+        [True, False]
+        """
+        from shapespline.geometry import contains
+
+        self._check_closed("contains")
+        return contains([self.spline], points)
+
+    def points(self, n: int | None = None, *, step: float | None = None) -> FloatArray:
+        """Points of the curve at equal arc length, from its beginning.
+
+        Parameters
+        ----------
+        n : int, optional
+            How many: an open curve from end to end, 2 or more; a closed one without the first
+            point repeated, 1 or more.
+        step : float, optional
+            Instead: the largest arc length from one to the next, data units; all steps are equal.
+
+        Returns
+        -------
+        ndarray, shape (n, 2)
+
+        Raises
+        ------
+        InvalidInputError
+            Unless one of both is given and in range.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> fit = ss.fit_curve([(0, 0), (4, 0)], closed=False, tolerance=0.01)
+        >>> fit.points(3).tolist(), len(fit.points(step=0.3))
+        ([[0.0, 0.0], [2.0, 0.0], [4.0, 0.0]], 15)
+        """
+        from shapespline.geometry import evenly_spaced
+
+        return self.spline(evenly_spaced(self.spline, n, step=step, closed=self.closed))
+
+    def _check_closed(self, name: str) -> None:
+        """Raise if the curve is open."""
+        if not self.closed:
+            raise InvalidInputError(
+                f"{name} is of a closed curve, got an open one; give closed=True to the fit"
+            )
