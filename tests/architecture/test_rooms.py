@@ -43,12 +43,18 @@ EXPECTED_METHODS = {
     "values/drawing.py": {
         "Drawing.bounds": ("geometry", "bounds"),
         "Drawing.contains": ("geometry", "contains"),
+        "Drawing.plot": ("plotting", "plot_on_axes"),
+        "Drawing.transformed": ("geometry", "transformed_drawing"),
     },
     "values/fit.py": {
         "Fit.area": ("geometry", "enclosed_area"),
         "Fit.bounds": ("geometry", "bounds"),
         "Fit.contains": ("geometry", "contains"),
         "Fit.points": ("geometry", "evenly_spaced"),
+        "Fit.plot": ("plotting", "plot_on_axes"),
+        "Fit.transformed": ("geometry", "transformed_fit"),
+        "Fit.reversed": ("geometry", "reversed_fit"),
+        "Fit.split": ("geometry", "split_fit"),
     },
     "values/shown.py": {
         "Shown._repr_svg_": ("formats", "svg_preview"),

@@ -11,7 +11,7 @@ lie on disk or on the machines of a cluster.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -157,7 +157,7 @@ def fit_large(
 
 def _large(fit: Fit, stream: PointStream, curve: CentredCurve) -> LargeFit:
     """The fit of a stream."""
-    named = {name: getattr(fit, name) for name in Fit.__dataclass_fields__}
+    named = {item.name: getattr(fit, item.name) for item in fields(Fit)}
     return LargeFit(**named, n_points=stream.n_points, feet=FootParameters(stream, curve))
 
 

@@ -16,6 +16,12 @@ from shapespline.geometry.flattening import chords, sampled
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
 from shapespline.geometry.joining import elevated, joined, turn_between
 from shapespline.geometry.measures import Box, bounds, contains, enclosed_area, evenly_spaced
+from shapespline.geometry.moving import (
+    reversed_fit,
+    split_fit,
+    transformed_drawing,
+    transformed_fit,
+)
 from shapespline.geometry.nearest import nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
@@ -55,10 +61,14 @@ __all__ = [
     "polygon_drawing",
     "reverse_distance",
     "reversed_curve",
+    "reversed_fit",
     "rounding",
     "sampled",
     "self_crossings",
     "signed_area",
+    "split_fit",
+    "transformed_drawing",
+    "transformed_fit",
     "turn_between",
     "two_sided_distance",
     "unit_normals",

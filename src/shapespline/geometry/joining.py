@@ -149,7 +149,7 @@ def elevated(piece: Piece, degree: int) -> Piece:
         span = int(np.searchsorted(piece.knots, begin, side="right")) - 1
         span = min(span, len(piece.control_points) - 1)
         choices = combinations(knots[i + 1 : i + degree + 1], p)
-        points[i] = np.mean([_blossom(piece, span, arguments) for arguments in choices], axis=0)
+        points[i] = np.mean([blossom(piece, span, arguments) for arguments in choices], axis=0)
     points[0], points[-1] = piece.control_points[0], piece.control_points[-1]
     return Piece("spline", degree, knots, points)
 
@@ -166,7 +166,7 @@ def _elevation_matrix(p: int, degree: int) -> FloatArray:
     )  # fmt: skip
 
 
-def _blossom(piece: Piece, span: int, arguments: tuple[float, ...]) -> FloatArray:
+def blossom(piece: Piece, span: int, arguments: tuple[float, ...]) -> FloatArray:
     """Polar form of the polynomial of one span (de Boor's algorithm with mixed arguments)."""
     p, knots = piece.degree, piece.knots
     work = piece.control_points[span - p : span + 1].copy()

@@ -18,6 +18,7 @@ from shapespline.plotting.fit_plot import (
     new_figure,
     plane_height,
     plot_fit,
+    plot_on_axes,
     quiet_axes,
     save,
 )
@@ -40,6 +41,7 @@ __all__ = [
     "new_figure",
     "plane_height",
     "plot_fit",
+    "plot_on_axes",
     "quiet_axes",
     "save",
 ]

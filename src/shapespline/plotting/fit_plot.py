@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from PIL import Image
 
-from shapespline.errors import MissingExtraError, UnknownFormatError
+from shapespline.errors import InvalidInputError, MissingExtraError, UnknownFormatError
 from shapespline.formats import check_target, write_atomically
 from shapespline.geometry import signed_area
 
@@ -99,6 +99,34 @@ def plot_fit(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     figure.suptitle(_caption(drawing), fontsize=FONT_SIZE, color=INK)
     legend_below(figure, shape_axes)
     save(figure, path)
+
+
+def plot_on_axes(fits: Sequence[Fit], axes: Axes | None = None) -> Axes:
+    """Draw data, control polygons and curves of fits into axes, new ones of pyplot's if none.
+
+    Raises
+    ------
+    MissingExtraError
+        If matplotlib is not installed.
+    InvalidInputError
+        If the axes are none.
+    """
+    check_matplotlib()
+    from matplotlib.axes import Axes
+
+    if axes is None:
+        from matplotlib import pyplot
+
+        _, axes = pyplot.subplots()
+    elif not isinstance(axes, Axes):
+        raise InvalidInputError(
+            f"ax must be an Axes of matplotlib, got {type(axes).__name__}; a figure gives one with"
+            " figure.add_subplot()"
+        )
+    draw_points(axes, [fit.contour for fit in fits])
+    draw_curves(axes, [fit.spline for fit in fits])
+    equal_axes(axes)
+    return axes
 
 
 # What every picture shares

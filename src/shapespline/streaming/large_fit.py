@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -87,6 +87,8 @@ class LargeFit(Fit):
     feet : FootParameters
         The foot parameter of each of them.
     """
+
+    _BESIDE: ClassVar = Fit._BESIDE | {"feet"}
 
     n_points: int
     feet: FootParameters = field(repr=False)

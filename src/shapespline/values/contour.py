@@ -1,8 +1,9 @@
 """Contour and Shape: validated input values.
 
 A :class:`Contour` is one outline, a :class:`Shape` is what a file holds: contours with their
-nesting. Both are immutable. Everything downstream may rely on what is checked here: finite
-float64 coordinates, no two equal neighbours, at least two distinct points (three if closed).
+nesting. Both are immutable, and equal by value. Everything downstream may rely on what is checked
+here: finite float64 coordinates, no two equal neighbours, at least two distinct points (three if
+closed).
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from shapespline.errors import (
     caller_level,
 )
 from shapespline.validation import float_array, is_number
+from shapespline.values.equality import ByValue
 from shapespline.values.shown import Shown
 
 if TYPE_CHECKING:
@@ -115,7 +117,7 @@ def _looks_closed(points: FloatArray) -> bool:
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Contour(Shown):
+class Contour(ByValue, Shown):
     """One outline: ordered points in the plane, open or closed.
 
     Consecutive equal points are dropped (with a :class:`DroppedPointsWarning`); the repeated

@@ -14,6 +14,7 @@ import numpy as np
 from shapespline import _kernels
 from shapespline.errors import InvalidInputError
 from shapespline.validation import float_array
+from shapespline.values.equality import ByValue
 from shapespline.values.knots import check_degree, check_knots, greville_abscissae
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def unrolled(control_points: FloatArray, n_coefficients: int) -> FloatArray:
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class BSplineCurve:
+class BSplineCurve(ByValue):
     """A plane B-spline curve, clamped or periodic.
 
     Parameters

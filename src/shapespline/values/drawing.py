@@ -13,17 +13,19 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     import numpy as np
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from shapespline.geometry import Box
     from shapespline.typing import ArrayLike
     from shapespline.values.view_box import ViewBox
+from shapespline.values.equality import ByValue
 from shapespline.values.fit import Fit
 from shapespline.values.shown import Shown
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Drawing(Shown):
+class Drawing(ByValue, Shown):
     """Fits with the nesting of the shape they came from.
 
     Parameters
@@ -141,3 +143,44 @@ class Drawing(Shown):
         from shapespline.geometry import contains
 
         return contains([fit.spline for fit in self.fits if fit.closed], points)
+
+    def transformed(self, matrix: ArrayLike) -> Drawing:
+        """The image of every fit under an affine map; see `Fit.transformed`.
+
+        The frame becomes the box around its image; the unit stays.
+
+        Parameters
+        ----------
+        matrix : array_like, shape (2, 2), (2, 3) or (3, 3)
+
+        Raises
+        ------
+        InvalidInputError
+            If the matrix has another shape, is not finite, or flattens the plane.
+        """
+        from shapespline.geometry import transformed_drawing
+
+        return transformed_drawing(self, matrix)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the data, the control polygons and the curves into axes of matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            New ones of pyplot's when not given.
+
+        Returns
+        -------
+        matplotlib Axes
+
+        Raises
+        ------
+        MissingExtraError
+            If matplotlib is not installed.
+        InvalidInputError
+            If ``ax`` is no Axes.
+        """
+        from shapespline.plotting import plot_on_axes
+
+        return plot_on_axes(self.fits, ax)

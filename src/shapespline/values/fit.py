@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
@@ -11,6 +11,7 @@ import numpy as np
 from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
     from scipy.interpolate import BSpline
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from shapespline.values.curve import BSplineCurve
     from shapespline.values.snapshot import Snapshot
     from shapespline.values.uncertainty import Band, Uncertainty
+from shapespline.values.equality import ByValue
 from shapespline.values.piece import CORNER_TURN, Piece
 from shapespline.values.shape import counted
 from shapespline.values.shown import Shown
@@ -62,8 +64,11 @@ Status.CANCELLED = Status("CANCELLED", "the callback cancelled the fit")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Fit(Shown):
+class Fit(ByValue, Shown):
     """A curve fitted to a contour, and what is known about it.
+
+    Fits are equal when curve, data, figures and the name of the status are; their histories, which
+    tell seconds, may differ.
 
     Attributes
     ----------
@@ -109,6 +114,27 @@ class Fit(Shown):
     outliers: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64), repr=False)
     snapshots: tuple[Snapshot, ...] = field(default=(), repr=False)
     uncertainty: Uncertainty | None = field(default=None, repr=False)
+
+    # How the iterations went, with their seconds, is no part of the result.
+    _BESIDE: ClassVar = frozenset({"history", "snapshots", "uncertainty"})
+
+    def __post_init__(self) -> None:
+        self._protect()
+
+    def _protect(self) -> None:
+        """Make the arrays read-only, as those of the curve and the contour are."""
+        held = [array for piece in self.sections for array in (piece.knots, piece.control_points)]
+        for array in (self.parameters, self.outliers, *held):
+            array.setflags(write=False)
+
+    # Between processes go the fields alone, and come back read-only.
+    def __getstate__(self) -> dict[str, object]:
+        return {item.name: getattr(self, item.name) for item in fields(self)}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        for name, value in state.items():
+            object.__setattr__(self, name, value)
+        self._protect()
 
     def __repr__(self) -> str:
         kind = "closed" if self.closed else "open"
@@ -330,6 +356,122 @@ class Fit(Shown):
         from shapespline.geometry import evenly_spaced
 
         return self.spline(evenly_spaced(self.spline, n, step=step, closed=self.closed))
+
+    # The same curve elsewhere, the other way, in parts
+
+    def transformed(self, matrix: ArrayLike) -> Fit:
+        """The image of curve and data under an affine map.
+
+        Parameters
+        ----------
+        matrix : array_like, shape (2, 2), (2, 3) or (3, 3)
+            Multiplies columns (x, y) or (x, y, 1); the last row of three is 0, 0, 1.
+
+        Returns
+        -------
+        Fit
+            Under a similarity (rotation, mirror, scale, shift) distances and tolerance are
+            multiplied by its factor, up to rounding. Under another map the tolerance is multiplied
+            by the largest factor of a length, which keeps every promise; the distances are measured
+            anew. The history stays behind.
+
+        Raises
+        ------
+        InvalidInputError
+            If the matrix has another shape, is not finite, or flattens the plane.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> fit = ss.fit_curve([(0, 0), (4, 0), (4, 3)], closed=False, tolerance=0.01)
+        >>> turned = fit.transformed([[0, -2], [2, 0]])
+        >>> turned.bounds, turned.tolerance
+        (Box(x_min=-6.0, y_min=0.0, x_max=0.0, y_max=8.0), 0.02)
+        """
+        from shapespline.geometry import transformed_fit
+
+        return transformed_fit(self, matrix)
+
+    def reversed(self) -> Fit:
+        """The same curve and data the other way: parameter u of one is 1 - u of the other.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> fit = ss.fit_curve([(0, 0), (4, 0), (4, 3)], closed=False, tolerance=0.01)
+        >>> fit.reversed().spline([0, 1]).tolist()
+        [[4.0, 3.0], [0.0, 0.0]]
+        """
+        from shapespline.geometry import reversed_fit
+
+        return reversed_fit(self)
+
+    def split(self, at: ArrayLike) -> tuple[Fit, ...]:
+        """The curve in parts, cut at parameters; every part is an open fit of its part of the data.
+
+        The parts are the same curve, exactly up to rounding. Their data are cut where they are
+        nearest to the ends of the parts. Distances are measured anew and the status of a part says
+        whether it keeps the tolerance; beside a cut a distance can grow a little.
+
+        Parameters
+        ----------
+        at : array_like, shape (k,), or float
+            Parameters of ``curve``, 0 to 1. A closed curve gives one part for each, from there to
+            the next; an open one gives one part more, and cuts at its ends count for nothing.
+
+        Returns
+        -------
+        tuple of Fit
+
+        Raises
+        ------
+        InvalidInputError
+            If there is no parameter, or one is outside 0 to 1.
+        DegenerateContourError
+            If a part is too short to hold two points.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> fit = ss.fit_curve([(0, 0), (4, 0)], closed=False, tolerance=0.01)
+        >>> [part.length for part in fit.split(0.25)]
+        [1.0, 3.0]
+        """
+        from shapespline.geometry import split_fit
+
+        return split_fit(self, at)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the data, the control polygon and the curve into axes of matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            New ones of pyplot's when not given.
+
+        Returns
+        -------
+        matplotlib Axes
+
+        Raises
+        ------
+        MissingExtraError
+            If matplotlib is not installed.
+        InvalidInputError
+            If ``ax`` is no Axes.
+
+        Examples
+        --------
+        >>> import matplotlib
+        >>> matplotlib.use("agg")
+        >>> import shapespline as ss
+        >>> axes = ss.fit_curve([(0, 0), (4, 0), (4, 3)], closed=False, tolerance=0.01).plot()
+        >>> len(axes.lines)
+        3
+        """
+        from shapespline.plotting import plot_on_axes
+
+        return plot_on_axes([self], ax)
 
     def _check_closed(self, name: str) -> None:
         """Raise if the curve is open."""

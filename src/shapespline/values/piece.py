@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.values.equality import hashed, same
+
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray
 
@@ -28,6 +30,15 @@ class Piece(NamedTuple):
     degree: int
     knots: FloatArray
     control_points: FloatArray
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Piece) and all(map(same, self, other))
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash(tuple(map(hashed, self)))
 
     @property
     def polygon_length(self) -> float:

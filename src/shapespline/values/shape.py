@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from shapespline.values.view_box import ViewBox
 
 from shapespline.values.contour import Contour, checked_contour
+from shapespline.values.equality import ByValue
 from shapespline.values.shown import Shown
 
 _COLOR = re.compile("#[0-9a-f]{6}")
@@ -87,7 +88,7 @@ def checked_colors(colors: Sequence[str | None] | None, count: int) -> tuple[str
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Shape(Shown):
+class Shape(ByValue, Shown):
     """What a file holds: contours and which lies directly inside which.
 
     Parameters

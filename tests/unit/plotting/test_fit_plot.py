@@ -344,3 +344,35 @@ def test_no_global_state_of_pyplot(tmp_path):
         "assert 'matplotlib' in sys.modules and 'matplotlib.pyplot' not in sys.modules\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_fits_and_drawings_draw_themselves_on_axes():
+    from matplotlib.figure import Figure
+
+    axes = Figure().subplots(1, 2)
+    drawing = nested()
+    assert drawing.plot(axes[0]) is axes[0]
+    assert drawing.fits[0].plot(ax=axes[1]) is axes[1]
+    for ax, fits in zip(axes, (drawing.fits, drawing.fits[:1]), strict=True):
+        data, polygon, curve = ax.lines
+        assert len(data.get_xdata()) == sum(len(fit.contour) for fit in fits)
+        for fit in fits:
+            drawn = polygon.get_xydata()
+            assert all((drawn == point).all(axis=1).any() for point in fit.control_points)
+            # Forty samples for each span: breakpoints are among them.
+            on = fit.spline(fit.spline.breakpoints[:-1])
+            assert all((curve.get_xydata() == point).all(axis=1).any() for point in on)
+        assert ax.get_aspect() == 1.0
+    with pytest.raises(InvalidInputError, match=r"ax must be an Axes .* got Figure"):
+        drawing.plot(axes[0].figure)
+
+
+def test_new_axes_are_those_of_pyplot():
+    import matplotlib
+
+    matplotlib.use("agg")
+    from matplotlib import pyplot
+
+    axes = nested().plot()
+    assert pyplot.gca() is axes
+    pyplot.close(axes.figure)
