@@ -3,6 +3,7 @@
 from shapespline.fitting.curve import fit_curve
 from shapespline.fitting.large import fit_large
 from shapespline.fitting.many import Batch, fit_many
+from shapespline.fitting.offset import offset_drawing
 from shapespline.fitting.optimization import optimize
 from shapespline.fitting.request import Request
 from shapespline.fitting.settings import Settings
@@ -17,6 +18,7 @@ __all__ = [
     "fit_large",
     "fit_many",
     "fit_shape",
+    "offset_drawing",
     "optimize",
     "verified_fit",
 ]

@@ -24,6 +24,7 @@ from shapespline.geometry.moving import (
 )
 from shapespline.geometry.nearest import nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
+from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
 from shapespline.geometry.polygons import polygon_drawing
 from shapespline.geometry.reversal import backwards, reversed_curve
@@ -36,7 +37,9 @@ __all__ = [
     "CentredCurve",
     "Comparison",
     "Distances",
+    "OffsetLine",
     "Outlines",
+    "Source",
     "arc_polyline",
     "backwards",
     "bounds",
@@ -56,6 +59,7 @@ __all__ = [
     "joined",
     "nearest",
     "nondecreasing",
+    "offset_lines",
     "parametrize",
     "parents_of",
     "polygon_drawing",

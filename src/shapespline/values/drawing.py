@@ -184,3 +184,51 @@ class Drawing(ByValue, Shown):
         from shapespline.plotting import plot_on_axes
 
         return plot_on_axes(self.fits, ax)
+
+    def offset(self, distance: float, *, tolerance: float | None = None) -> Drawing:
+        """The curves at a distance from these, holes the other way, fitted again.
+
+        Parameters
+        ----------
+        distance : float
+            Data units. The silhouette grows by a positive one, its holes shrink; open curves are
+            offset each to its left.
+        tolerance : float, optional
+            Largest distance between the result and the true offset, both ways, data units; by
+            default the largest of the fits, and at least 1e-4 of the box diagonal.
+
+        Returns
+        -------
+        Drawing
+            With its own nesting; frame and unit stay. Outlines that grow into one another
+            are one.
+
+        Raises
+        ------
+        InvalidInputError
+            If the distance is 0 or not finite, the tolerance is not positive, closed curves cross
+            themselves or each other, or the offset cannot be closed at so coarse a tolerance.
+        DegenerateContourError
+            If nothing is left.
+
+        Notes
+        -----
+        The true offset is every point at the distance from the nearest point of the curves, on the
+        side asked for: what would cross itself is cut off there, and corners that turn away are
+        rounded by arcs. Outlines smaller than a third of the tolerance are left out. The distances
+        of the fits are those to the true offset: that of the refit to a dense polyline of it, which
+        is certified, and the allowance for that polyline (sampled, not a rigorous bound).
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> square = ss.Contour([(0, 0), (4, 0), (4, 4), (0, 4)], closed=True).resampled(80)
+        >>> hole = ss.Contour([(1, 1), (3, 1), (3, 3), (1, 3)], closed=True).resampled(80)
+        >>> drawing = ss.fit_shape(ss.Shape([square, hole], [-1, 0]), tolerance=0.01)
+        >>> shrunk = drawing.offset(-0.25)
+        >>> len(shrunk), round(shrunk.area)
+        (2, 6)
+        """
+        from shapespline.fitting import offset_drawing
+
+        return offset_drawing(self, distance, tolerance=tolerance)

@@ -8,21 +8,17 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from shapespline.errors import InvalidInputError
-
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from numpy.typing import NDArray
     from scipy.interpolate import BSpline
 
-    from shapespline.geometry import Box
     from shapespline.monitor import Iteration
-    from shapespline.typing import ArrayLike, FloatArray, IntArray
+    from shapespline.typing import FloatArray, IntArray
     from shapespline.values.contour import Contour
     from shapespline.values.curve import BSplineCurve
     from shapespline.values.snapshot import Snapshot
     from shapespline.values.uncertainty import Band, Uncertainty
 from shapespline.values.equality import ByValue
+from shapespline.values.fit_methods import FitMethods
 from shapespline.values.piece import CORNER_TURN, Piece
 from shapespline.values.shape import counted
 from shapespline.values.shown import Shown
@@ -64,7 +60,7 @@ Status.CANCELLED = Status("CANCELLED", "the callback cancelled the fit")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Fit(ByValue, Shown):
+class Fit(ByValue, Shown, FitMethods):
     """A curve fitted to a contour, and what is known about it.
 
     Fits are equal when curve, data, figures and the name of the status are; their histories, which
@@ -251,231 +247,3 @@ class Fit(ByValue, Shown):
     def kept(self) -> bool:
         """Whether both bounds are within the tolerance."""
         return max(self.max_distance, self.hausdorff_distance) <= self.tolerance
-
-    # Measures of the curve
-
-    @property
-    def length(self) -> float:
-        """Arc length of the curve, data units; exact to rounding unless its speed nears zero."""
-        return self.spline.length()
-
-    @property
-    def area(self) -> float:
-        """Area within a closed curve, data units squared, exact up to rounding.
-
-        Of a curve that crosses itself, parts that run the other way count negative.
-
-        Raises
-        ------
-        InvalidInputError
-            If the curve is open.
-
-        Examples
-        --------
-        >>> import shapespline as ss
-        >>> square = ss.Contour([(0, 0), (2, 0), (2, 2), (0, 2)], closed=True).resampled(80)
-        >>> round(ss.fit_curve(square, tolerance=0.01).area, 9)
-        4.0
-        """
-        from shapespline.geometry import enclosed_area
-
-        self._check_closed("area")
-        return abs(enclosed_area(self.spline))
-
-    @property
-    def bounds(self) -> Box:
-        """The box (x_min, y_min, x_max, y_max) of the curve, data units, exact up to rounding.
-
-        Examples
-        --------
-        >>> import shapespline as ss
-        >>> fit = ss.fit_curve([(0, 0), (4, 0), (4, 3)], closed=False, tolerance=0.01)
-        >>> fit.bounds
-        Box(x_min=0.0, y_min=0.0, x_max=4.0, y_max=3.0)
-        """
-        from shapespline.geometry import bounds
-
-        return bounds([self.spline])
-
-    def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
-        """Which points lie inside a closed curve, by the even-odd rule.
-
-        Parameters
-        ----------
-        points : array_like, shape (k, 2) or (2,)
-            Data units. One on the curve itself, up to rounding, may count as either.
-
-        Returns
-        -------
-        ndarray of bool, shape (k,)
-
-        Raises
-        ------
-        InvalidInputError
-            If the curve is open, or the points are no finite (k, 2) array.
-
-        Examples
-        --------
-        >>> import shapespline as ss
-        >>> square = ss.Contour([(0, 0), (2, 0), (2, 2), (0, 2)], closed=True).resampled(80)
-        >>> ss.fit_curve(square, tolerance=0.01).contains([(1, 1), (3, 1)]).tolist()
-        [True, False]
-        """
-        from shapespline.geometry import contains
-
-        self._check_closed("contains")
-        return contains([self.spline], points)
-
-    def points(self, n: int | None = None, *, step: float | None = None) -> FloatArray:
-        """Points of the curve at equal arc length, from its beginning.
-
-        Parameters
-        ----------
-        n : int, optional
-            How many: an open curve from end to end, 2 or more; a closed one without the first
-            point repeated, 1 or more.
-        step : float, optional
-            Instead: the largest arc length from one to the next, data units; all steps are equal.
-
-        Returns
-        -------
-        ndarray, shape (n, 2)
-
-        Raises
-        ------
-        InvalidInputError
-            Unless one of both is given and in range.
-
-        Examples
-        --------
-        >>> import shapespline as ss
-        >>> fit = ss.fit_curve([(0, 0), (4, 0)], closed=False, tolerance=0.01)
-        >>> fit.points(3).tolist(), len(fit.points(step=0.3))
-        ([[0.0, 0.0], [2.0, 0.0], [4.0, 0.0]], 15)
-        """
-        from shapespline.geometry import evenly_spaced
-
-        return self.spline(evenly_spaced(self.spline, n, step=step, closed=self.closed))
-
-    # The same curve elsewhere, the other way, in parts
-
-    def transformed(self, matrix: ArrayLike) -> Fit:
-        """The image of curve and data under an affine map.
-
-        Parameters
-        ----------
-        matrix : array_like, shape (2, 2), (2, 3) or (3, 3)
-            Multiplies columns (x, y) or (x, y, 1); the last row of three is 0, 0, 1.
-
-        Returns
-        -------
-        Fit
-            Under a similarity (rotation, mirror, scale, shift) distances and tolerance are
-            multiplied by its factor, up to rounding. Under another map the tolerance is multiplied
-            by the largest factor of a length, which keeps every promise; the distances are measured
-            anew. The history stays behind.
-
-        Raises
-        ------
-        InvalidInputError
-            If the matrix has another shape, is not finite, or flattens the plane.
-
-        Examples
-        --------
-        >>> import shapespline as ss
-        >>> fit = ss.fit_curve([(0, 0), (4, 0), (4, 3)], closed=False, tolerance=0.01)
-        >>> turned = fit.transformed([[0, -2], [2, 0]])
-        >>> turned.bounds, turned.tolerance
-        (Box(x_min=-6.0, y_min=0.0, x_max=0.0, y_max=8.0), 0.02)
-        """
-        from shapespline.geometry import transformed_fit
-
-        return transformed_fit(self, matrix)
-
-    def reversed(self) -> Fit:
-        """The same curve and data the other way: parameter u of one is 1 - u of the other.
-
-        Examples
-        --------
-        >>> import shapespline as ss
-        >>> fit = ss.fit_curve([(0, 0), (4, 0), (4, 3)], closed=False, tolerance=0.01)
-        >>> fit.reversed().spline([0, 1]).tolist()
-        [[4.0, 3.0], [0.0, 0.0]]
-        """
-        from shapespline.geometry import reversed_fit
-
-        return reversed_fit(self)
-
-    def split(self, at: ArrayLike) -> tuple[Fit, ...]:
-        """The curve in parts, cut at parameters; every part is an open fit of its part of the data.
-
-        The parts are the same curve, exactly up to rounding. Their data are cut where they are
-        nearest to the ends of the parts. Distances are measured anew and the status of a part says
-        whether it keeps the tolerance; beside a cut a distance can grow a little.
-
-        Parameters
-        ----------
-        at : array_like, shape (k,), or float
-            Parameters of ``curve``, 0 to 1. A closed curve gives one part for each, from there to
-            the next; an open one gives one part more, and cuts at its ends count for nothing.
-
-        Returns
-        -------
-        tuple of Fit
-
-        Raises
-        ------
-        InvalidInputError
-            If there is no parameter, or one is outside 0 to 1.
-        DegenerateContourError
-            If a part is too short to hold two points.
-
-        Examples
-        --------
-        >>> import shapespline as ss
-        >>> fit = ss.fit_curve([(0, 0), (4, 0)], closed=False, tolerance=0.01)
-        >>> [part.length for part in fit.split(0.25)]
-        [1.0, 3.0]
-        """
-        from shapespline.geometry import split_fit
-
-        return split_fit(self, at)
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the data, the control polygon and the curve into axes of matplotlib.
-
-        Parameters
-        ----------
-        ax : matplotlib Axes, optional
-            New ones of pyplot's when not given.
-
-        Returns
-        -------
-        matplotlib Axes
-
-        Raises
-        ------
-        MissingExtraError
-            If matplotlib is not installed.
-        InvalidInputError
-            If ``ax`` is no Axes.
-
-        Examples
-        --------
-        >>> import matplotlib
-        >>> matplotlib.use("agg")
-        >>> import shapespline as ss
-        >>> axes = ss.fit_curve([(0, 0), (4, 0), (4, 3)], closed=False, tolerance=0.01).plot()
-        >>> len(axes.lines)
-        3
-        """
-        from shapespline.plotting import plot_on_axes
-
-        return plot_on_axes([self], ax)
-
-    def _check_closed(self, name: str) -> None:
-        """Raise if the curve is open."""
-        if not self.closed:
-            raise InvalidInputError(
-                f"{name} is of a closed curve, got an open one; give closed=True to the fit"
-            )
