@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from shapespline.geometry import Comparison, compare
     from shapespline.paper import LITERAL, SENSIBLE, InitialCurve, Reading, initial_curve
     from shapespline.streaming import FootParameters, LargeFit
+    from shapespline.tracing import trace
     from shapespline.values import (
         BSplineCurve,
         Contour,
@@ -80,6 +81,7 @@ _HOME = {
     "optimize": "fitting",
     "order_points": "analysis",
     "read": "formats",
+    "trace": "tracing",
     "write": "formats",
 }
 
@@ -122,6 +124,7 @@ __all__ = [
     "optimize",
     "order_points",
     "read",
+    "trace",
     "write",
 ]
 

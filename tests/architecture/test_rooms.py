@@ -47,6 +47,7 @@ EXPECTED_METHODS = {
         "Drawing.plot": ("plotting", "plot_on_axes"),
         "Drawing.transformed": ("geometry", "transformed_drawing"),
     },
+    "values/fit.py": {"Fit.band": ("geometry", "confidence_band")},
     "values/fit_methods.py": {
         "FitMethods.area": ("geometry", "enclosed_area"),
         "FitMethods.bounds": ("geometry", "bounds"),

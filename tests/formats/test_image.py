@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from shapespline.errors import DegenerateContourError, FormatError, PictureWarning, ShapesplineError
-from shapespline.formats import image as image_format
 from shapespline.formats.registry import read
+from shapespline.tracing import picture
 from shapespline.values.view_box import ViewBox
 
 HEIGHT, WIDTH = 40, 60
@@ -117,7 +117,7 @@ def test_one_bit(tmp_path):
 @pytest.mark.parametrize("name", ["l.png", "l.tif"])
 def test_sixteen_bits_are_kept(tmp_path, expected, name):
     path = saved(tmp_path, Image.fromarray((BYTES * 257.0).astype(np.uint16)), name)
-    assert image_format.load(path).dtype == np.uint16
+    assert picture.load(path).dtype == np.uint16
     assert same_outline(read(path).longest.points, expected, within=0.01)
     # Contrast that eight bits would lose altogether.
     path = saved(tmp_path, Image.fromarray(np.uint16(30_000) + BYTES // 4), name)
@@ -235,7 +235,7 @@ def test_no_damage_escapes_as_another_error(tmp_path_factory, data):
         content[index] = data.draw(st.integers(0, 255))
     path = tmp_path_factory.mktemp("damage") / "damaged.png"
     path.write_bytes(content)
-    limited = mock.patch.object(image_format, "LARGEST_IMAGE", 1_000_000)
+    limited = mock.patch.object(picture, "LARGEST_IMAGE", 1_000_000)
     with limited, contextlib.suppress(ShapesplineError, PictureWarning):
         read(path)
 

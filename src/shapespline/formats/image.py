@@ -3,28 +3,17 @@
 from __future__ import annotations
 
 import contextlib
-import warnings
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
-import numpy as np
-from PIL import Image, ImageOps, UnidentifiedImageError
-
-from shapespline.errors import FormatError, InvalidInputError, PictureWarning
-from shapespline.tracing import centerlines, trace_colors, trace_image
+from shapespline.errors import InvalidInputError
+from shapespline.tracing import centerlines, load, trace_colors, trace_image
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from shapespline.tracing import Channel, Local, Polarity, Selection
     from shapespline.values import Shape
-
-# Told by content, not by ending. Pillow knows more, among them formats that start programs.
-CONTENTS = ("PNG", "JPEG", "TIFF", "BMP", "WEBP", "GIF")
-# Pixels. Tracing holds about 10 bytes for each; Pillow's own limit is a little above this one.
-LARGEST_IMAGE = 80_000_000
 
 
 def read(
@@ -100,84 +89,3 @@ def _window(local: Local | str) -> Local:
     with contextlib.suppress(ValueError):
         return float(local)
     return cast("Local", local)
-
-
-def load(path: Path) -> NDArray[Any]:
-    """Pixels of a picture as :func:`shapespline.trace.trace_image` takes them, turned upright.
-
-    Of several pages the first. Palettes and other colour models become RGB; 16-bit grey stays.
-
-    Returns
-    -------
-    ndarray, shape (h, w) or (h, w, c)
-        uint8, uint16 or float64.
-    """
-    with path.open("rb") as file, warnings.catch_warnings():
-        # Pillow warns of what it takes for a bomb; here that is an error like the others.
-        warnings.simplefilter("error", Image.DecompressionBombWarning)
-        # Damaged metadata says nothing about the pixels.
-        warnings.filterwarnings("ignore", category=UserWarning, module="PIL")
-        try:
-            picture = Image.open(file, formats=CONTENTS)
-            _check_size(*picture.size)
-            _note_frames(picture)
-            return _pixels(_upright(picture))
-        except UnidentifiedImageError as error:
-            raise FormatError(
-                "not a PNG, JPEG, TIFF, BMP, WebP or GIF picture, or damaged from the start"
-            ) from error
-        except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
-            raise FormatError(
-                f"the picture has more than {LARGEST_IMAGE // 10**6} megapixels; scale it down"
-            ) from error
-        except (FormatError, MemoryError, PictureWarning):
-            raise
-        except Exception as error:  # decoders raise whatever damage makes them stumble over
-            raise FormatError(f"the picture is damaged or cut off: {error}") from error
-
-
-def _note_frames(picture: Image.Image) -> None:
-    """Tell if there are more frames or pages than the one that is looked at."""
-    count = getattr(picture, "n_frames", 1)
-    if count > 1:
-        warnings.warn(
-            f"the picture has {count} frames or pages: the first one is looked at; save another one"
-            " as a file of its own",
-            PictureWarning,
-            stacklevel=4,
-        )
-
-
-def _check_size(width: int, height: int) -> None:
-    if width * height > LARGEST_IMAGE:
-        raise FormatError(
-            f"the picture has {width} x {height} pixels, more than {LARGEST_IMAGE // 10**6}"
-            " megapixels; scale it down"
-        )
-
-
-def _upright(picture: Image.Image) -> Image.Image:
-    """Decode, and turn the way the camera was held, as viewers do."""
-    picture.load()
-    try:
-        return ImageOps.exif_transpose(picture)
-    except Exception:  # unreadable EXIF data must not cost the picture
-        return picture
-
-
-def _pixels(picture: Image.Image) -> NDArray[Any]:
-    """Pixels in one of the few layouts that tracing knows."""
-    mode = picture.mode
-    if mode.startswith("I;16"):
-        return np.asarray(picture).astype(np.uint16)
-    if mode == "I":
-        values = np.asarray(picture)
-        # Some readers give 16-bit pictures as 32-bit integers.
-        fits = values.min() >= 0 and values.max() <= np.iinfo(np.uint16).max
-        return values.astype(np.uint16 if fits else np.float64)
-    if mode == "F":
-        return np.asarray(picture, dtype=np.float64)
-    is_grey = mode in ("1", "L", "LA", "La")
-    has_alpha = mode in ("LA", "La", "PA", "RGBA", "RGBa") or "transparency" in picture.info
-    wanted = ("LA" if has_alpha else "L") if is_grey else ("RGBA" if has_alpha else "RGB")
-    return np.asarray(picture.convert(wanted))

@@ -18,12 +18,15 @@ from typing import TYPE_CHECKING, cast
 
 from shapespline.errors import FormatError, InvalidInputError, ShapesplineError, UnknownFormatError
 from shapespline.formats.atomic import check_target, write_atomically
+from shapespline.formats.sources import as_path
 from shapespline.geometry import Outlines, exact_drawing, in_unit, polygon_drawing
 from shapespline.values import Contour, Drawing, Fit, Shape
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Mapping
+
+    from shapespline.formats.sources import Source
 
 
 __all__ = [
@@ -73,8 +76,9 @@ FORMATS = (
 
 
 def read(
-    path: str | os.PathLike[str],
+    path: Source,
     *,
+    format: str | None = None,
     closed: bool | None = None,
     y_down: bool = False,
     unit: str | None = None,
@@ -87,7 +91,11 @@ def read(
 
     Parameters
     ----------
-    path : path-like
+    path : path-like, bytes or open file
+        Bytes and open files are read whole.
+    format : str, optional
+        The ending, such as ".csv", of bytes or an open file whose kind neither its name nor its
+        first bytes tell: PNG, JPEG, TIFF, BMP, NumPy, SVG, STEP and 3dm tell it.
     closed : bool, optional
         Whether the outline is closed; found from its ends if not given (CSV, NumPy).
     y_down : bool
@@ -131,19 +139,30 @@ def read(
 .3dm .bmp .csv .dat .dxf .geojson .gif .iges .igs .jpeg .jpg .json .npy .png .step .stp .svg .tif \
 .tiff .tsv .txt .webp .xy
     """
-    path = Path(path)
+    options |= {"closed": closed, "y_down": y_down or None}
+    with as_path(path, format) as file:
+        in_wanted = _read(file, options, unit, scale, dpi)
+        if isinstance(in_wanted, Outlines):
+            return exact_drawing(in_wanted, sampling=sampling)
+        return in_wanted
+
+
+def _read(
+    path: Path,
+    given: Mapping[str, object],
+    unit: str | None,
+    scale: float | None,
+    dpi: float | None,
+) -> Shape | Drawing | Outlines:
+    """What the format's reader finds, in the unit that is wanted."""
     if path.is_dir():
         raise FormatError(f"cannot read {path}: it is a folder; name a file in it")
     reader = _function(path, "read")
-    given = {"closed": closed, "y_down": y_down or None, **options}
     arguments = _checked(path, reader, given)
     try:
         _check_source(path)
         found = reader(path, **arguments)
-        in_wanted = in_unit(cast("Shape | Outlines | Drawing", found), unit, scale, dpi)
-        if isinstance(in_wanted, Outlines):
-            return exact_drawing(in_wanted, sampling=sampling)
-        return in_wanted
+        return in_unit(cast("Shape | Outlines | Drawing", found), unit, scale, dpi)
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}") from error
     except ShapesplineError as error:

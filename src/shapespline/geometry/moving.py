@@ -81,7 +81,7 @@ def transformed_drawing(drawing: Drawing, matrix: ArrayLike) -> Drawing:
         corners = affine(np.column_stack([x, y + frame.height * np.array([0, 1, 0, 1])]))
         frame = ViewBox(*corners.min(axis=0).tolist(), *np.ptp(corners, axis=0).tolist())
     fits = [transformed_fit(fit, matrix) for fit in drawing]
-    return Drawing(fits, drawing.parents, frame, drawing.unit)
+    return Drawing(fits, drawing.parents, frame, drawing.unit, colors=drawing.colors)
 
 
 def transformed_fit(fit: Fit, matrix: ArrayLike) -> Fit:
@@ -90,7 +90,13 @@ def transformed_fit(fit: Fit, matrix: ArrayLike) -> Fit:
     spline = fit.spline
     accuracy = None if fit.contour.accuracy is None else factor * fit.contour.accuracy
     given = affine(fit.contour.points)[fit.contour.source]
-    contour = Contour.silently(given, fit.contour.closed, accuracy=accuracy)
+    line = fit.contour.level_line
+    contour = Contour.silently(
+        given,
+        fit.contour.closed,
+        accuracy=accuracy,
+        level_line=None if line is None else affine(line),
+    )
     moved = replace(
         plain(fit),
         spline=BSplineCurve(spline.knots, affine(spline.control_points), spline.degree,
@@ -133,8 +139,9 @@ def _measured(fit: Fit) -> Fit:
 
 
 def plain(fit: Fit) -> Fit:
-    """A fit of points that it holds, without what was known of others."""
-    return Fit(**{item.name: getattr(fit, item.name) for item in fields(Fit)})
+    """A fit of the points that it holds, without what is known of the problem that it solved."""
+    held = {item.name: getattr(fit, item.name) for item in fields(Fit)}
+    return Fit(**(held | {"snapshots": (), "uncertainty": None}))
 
 
 def reversed_fit(fit: Fit) -> Fit:
