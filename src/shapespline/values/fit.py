@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from shapespline.errors import InvalidInputError
+
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
     from shapespline.monitor import Iteration
-    from shapespline.typing import FloatArray, IntArray
+    from shapespline.typing import ArrayLike, FloatArray, IntArray
     from shapespline.values.contour import Contour
     from shapespline.values.curve import BSplineCurve
     from shapespline.values.snapshot import Snapshot
