@@ -141,20 +141,29 @@ def read(
     """
     options |= {"closed": closed, "y_down": y_down or None}
     with as_path(path, format) as file:
-        in_wanted = _read(file, options, unit, scale, dpi)
-        if isinstance(in_wanted, Outlines):
-            return exact_drawing(in_wanted, sampling=sampling)
-        return in_wanted
+        return _read(file, options, lambda found: _as_wanted(found, unit, scale, dpi, sampling))
+
+
+def _as_wanted(
+    found: Shape | Drawing | Outlines,
+    unit: str | None,
+    scale: float | None,
+    dpi: float | None,
+    sampling: float | None,
+) -> Shape | Drawing:
+    """What a reader found, in the unit that is wanted, exact curves as a drawing."""
+    converted = in_unit(found, unit, scale, dpi)
+    if isinstance(converted, Outlines):
+        return exact_drawing(converted, sampling=sampling)
+    return converted
 
 
 def _read(
     path: Path,
     given: Mapping[str, object],
-    unit: str | None,
-    scale: float | None,
-    dpi: float | None,
-) -> Shape | Drawing | Outlines:
-    """What the format's reader finds, in the unit that is wanted."""
+    finish: Callable[[Shape | Drawing | Outlines], Shape | Drawing],
+) -> Shape | Drawing:
+    """What the format's reader finds, finished; errors name the file."""
     if path.is_dir():
         raise FormatError(f"cannot read {path}: it is a folder; name a file in it")
     reader = _function(path, "read")
@@ -162,7 +171,7 @@ def _read(
     try:
         _check_source(path)
         found = reader(path, **arguments)
-        return in_unit(cast("Shape | Outlines | Drawing", found), unit, scale, dpi)
+        return finish(cast("Shape | Outlines | Drawing", found))
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}") from error
     except ShapesplineError as error:
