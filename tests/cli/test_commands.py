@@ -183,6 +183,7 @@ def test_a_folder_with_broken_files(shapespline, tmp_path, mixed, jobs):
     assert "empty.png: the file is empty" in lines[1]
 
 
+@pytest.mark.slow
 def test_jobs_change_no_byte(shapespline, tmp_path, mixed):
     for jobs in (1, 2):
         folder = tmp_path / f"out{jobs}"
@@ -302,6 +303,7 @@ def test_no_argument_shows_the_help(shapespline):
     assert out.startswith("Usage: ")
 
 
+@pytest.mark.slow
 def test_a_folder_with_pictures_is_many_inputs_for_every_part(shapespline, tmp_path):
     sources, results, pictures = (tmp_path / name for name in ("in", "out", "pics"))
     for folder in (sources, results, pictures):

@@ -14,9 +14,12 @@ from hypothesis import strategies as st
 
 import shapespline as ss
 
-pytestmark = pytest.mark.filterwarnings(
-    "ignore::shapespline.DroppedPointsWarning", "ignore::shapespline.ShuffledPointsWarning"
-)
+pytestmark = [
+    pytest.mark.slow,  # some ten seconds of shapes drawn at random
+    pytest.mark.filterwarnings(
+        "ignore::shapespline.DroppedPointsWarning", "ignore::shapespline.ShuffledPointsWarning"
+    ),
+]
 
 
 @pytest.mark.parametrize("family", FAMILIES)

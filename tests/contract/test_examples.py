@@ -68,6 +68,7 @@ def test_outlines(row):
         assert str(len(contour)) in row["file"]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::shapespline.PictureWarning")  # photographs have grain
 @by_file(IMAGES)
 def test_images(row):

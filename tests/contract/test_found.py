@@ -171,6 +171,7 @@ def test_the_only_piece_of_a_periodic_fit_is_a_spline():
     assert np.abs(spline(u) - fit.curve(u)).max() <= 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rows", [20_000, 131_072, 200_000])
 def test_the_blocks_of_a_dask_array_do_not_matter(rows):
     array = pytest.importorskip("dask.array")
@@ -184,6 +185,7 @@ def test_the_blocks_of_a_dask_array_do_not_matter(rows):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [49_152, 98_304])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_more_points_of_a_coast_cost_no_more(n, seed):

@@ -13,6 +13,9 @@ import pytest
 from tests.support.desk import laid_out
 from tests.support.places import ROOT
 
+# Every snippet is a run of its own.
+pytestmark = pytest.mark.slow
+
 if TYPE_CHECKING:
     from pathlib import Path
 

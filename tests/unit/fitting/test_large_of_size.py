@@ -22,6 +22,7 @@ def off(fit, truth):
     return float(np.sqrt(nearest(fit.spline, truth).distances_sq.mean()))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("closed", [True, False])
 def test_all_points_tell_more_than_a_sample(closed):
     points, truth = ((ring if closed else wave)(n, noise) for n, noise in ((N, 0.1), (20_000, 0)))
@@ -40,6 +41,7 @@ def test_all_points_tell_more_than_a_sample(closed):
     assert fit.max_distance <= fit.hausdorff_distance == fit.tolerance < 1.0
 
 
+@pytest.mark.slow
 def test_the_curve_does_not_fly_where_the_points_leave_a_gap():
     arc, span = ring(60_000)[:36_000], 20.0  # the closing side is as long
     fit = ss.fit_large(arc, n_control_points=20, closed=True)
@@ -90,6 +92,7 @@ def test_threads_and_blocks_give_the_same_bits(tmp_path):
         assert other.hausdorff_distance == alone.hausdorff_distance
 
 
+@pytest.mark.slow
 def test_progress_cancelling_and_time():
     points, seen = ring(N), []
     ss.fit_large(points, n_control_points=20, progress=lambda *done: seen.append(done))

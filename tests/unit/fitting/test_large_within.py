@@ -30,6 +30,7 @@ def checked(fit, points, tolerance):
     return found
 
 
+@pytest.mark.slow
 def test_clean_points():
     points = rose(N)
     fit = ss.fit_large(points, tolerance=0.1)
@@ -73,6 +74,7 @@ def test_points_that_scatter(noise):
     assert fit.n_stored_points <= 60
 
 
+@pytest.mark.slow
 def test_points_that_scatter_by_more_than_the_tolerance():
     with pytest.raises(ss.InvalidInputError, match="they scatter by about 0"):
         ss.fit_large(rose(N, 0.1), tolerance=0.05)

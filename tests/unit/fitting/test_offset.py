@@ -9,6 +9,9 @@ from tests.support.make_fit import fit_of, wave
 
 import shapespline as ss
 
+# Offsets are judged by dense samples.
+pytestmark = pytest.mark.slow
+
 TOLERANCE = 0.01
 ANGLE = np.linspace(0, 2 * np.pi, 400, endpoint=False)
 

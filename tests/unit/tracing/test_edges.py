@@ -29,6 +29,7 @@ def test_a_straight_edge_is_exact_where_its_level_line_is_not(angle):
     assert contour.accuracy == 0.02
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [1.0, 1.3, 1.7, 2.0])
 @pytest.mark.parametrize("angle", [0.0, 3.0, 17.0, 90.0])
 @pytest.mark.parametrize("shift", [0.0, 0.25, 0.5])

@@ -43,6 +43,7 @@ def test_small_letters_keep_their_dots_and_counters(text, height, expected):
     assert parts_and_holes(trace_image(sheet)) == expected
 
 
+@pytest.mark.slow
 def test_grain_goes_and_is_counted():
     rng = np.random.default_rng(7)
     ramp = np.linspace(60, 200, 300)[None, :] * np.ones((200, 1))  # passes the level slowly
@@ -66,6 +67,7 @@ def test_what_a_given_area_leaves_out_is_listed_too():
     assert shape.left_out[0].points.mean(axis=0) == pytest.approx([82, 18])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [60, 1200])
 def test_pure_noise_ends_in_a_sentence(size):
     image = np.random.default_rng(1).integers(0, 256, (size, size)).astype(np.uint8)

@@ -29,6 +29,7 @@ def distances(fit: ss.Fit) -> np.ndarray:
     return np.sqrt(nearest(fit.spline, FLOWER).distances_sq)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("closed", [True, False])
 @pytest.mark.parametrize("weight", [3.0, 20.0])
 @pytest.mark.parametrize("options", [{}, {"corners": "free"}, {"form": "spline"}])

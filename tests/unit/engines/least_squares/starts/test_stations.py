@@ -54,6 +54,7 @@ SHAPES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("kind", STATIONS)
 @pytest.mark.parametrize("clamped", [False, True])
