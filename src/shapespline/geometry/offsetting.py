@@ -9,6 +9,7 @@ by crossings). Where a stay begins or ends is found by bisection; ends that meet
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from shapespline.geometry.measures import Box
     from shapespline.typing import FloatArray
     from shapespline.values import BSplineCurve
 
@@ -65,13 +67,17 @@ class Source:
         """The distance without its sign."""
         return abs(self.to_the_left[0])
 
+    @cached_property
+    def boxes(self) -> list[Box]:
+        """The box of each curve: most points are too far from most of them."""
+        return [bounds([curve]) for curve in self.curves]
+
     def keeps(self, points: FloatArray) -> NDArray[np.bool_]:
         """Which points are no nearer to any curve than the distance, and on the right side."""
         far = np.ones(len(points), dtype=bool)
         largest = float(np.abs(points).max(initial=0.0))
         least = self.distance * (1 - NEAR) - ROUNDING * largest
-        for curve in self.curves:
-            x_min, y_min, x_max, y_max = bounds([curve])
+        for curve, (x_min, y_min, x_max, y_max) in zip(self.curves, self.boxes, strict=True):
             x, y = points.T
             near = (x > x_min - least) & (x < x_max + least)
             near &= (y > y_min - least) & (y < y_max + least) & far

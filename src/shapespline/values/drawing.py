@@ -107,7 +107,7 @@ class Drawing(ByValue, Shown):
         >>> import shapespline as ss
         >>> square = ss.Contour([(0, 0), (2, 0), (2, 2), (0, 2)], closed=True).resampled(80)
         >>> hole = ss.Contour([(0.5, 0.5), (1, 0.5), (1, 1), (0.5, 1)], closed=True).resampled(40)
-        >>> drawing = ss.fit_shape(ss.Shape([square, hole], [-1, 0]), tolerance=0.01)
+        >>> drawing = ss.fit_shape(ss.Shape([square, hole], [-1, 0]), tolerance=0.05)
         >>> round(drawing.area, 9), round(drawing.length, 9)
         (3.75, 10.0)
         >>> drawing.contains([(0.2, 0.2), (0.7, 0.7)]).tolist()
@@ -224,7 +224,7 @@ class Drawing(ByValue, Shown):
         >>> import shapespline as ss
         >>> square = ss.Contour([(0, 0), (4, 0), (4, 4), (0, 4)], closed=True).resampled(80)
         >>> hole = ss.Contour([(1, 1), (3, 1), (3, 3), (1, 3)], closed=True).resampled(80)
-        >>> drawing = ss.fit_shape(ss.Shape([square, hole], [-1, 0]), tolerance=0.01)
+        >>> drawing = ss.fit_shape(ss.Shape([square, hole], [-1, 0]), tolerance=0.05)
         >>> shrunk = drawing.offset(-0.25)
         >>> len(shrunk), round(shrunk.area)
         (2, 6)
