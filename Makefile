@@ -25,10 +25,10 @@ demo: $(READY)
 	@echo "Look into demo-output: SVG opens in a browser or in Inkscape, DXF in CAD; the pictures show the error."
 
 test: lint
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -q -n logical --dist worksteal
 
 quick: $(READY)
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest -q -n logical --dist worksteal -m "not slow"
 
 # The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: its native tests, the quick suite.
 sanitize: $(READY)

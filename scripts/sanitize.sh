@@ -25,4 +25,4 @@ build/sanitize/build/kernel_tests
 # of C++ with it, whose exceptions it watches. Python keeps objects at its end: leaks are not asked.
 LD_PRELOAD="$(library libasan.so) $(library libstdc++.so)"
 export LD_PRELOAD ASAN_OPTIONS=detect_leaks=0:handle_abort=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
-exec $python -m pytest -q -m "not slow" -p no:cacheprovider
+exec $python -m pytest -q -n logical --dist worksteal -m "not slow" -p no:cacheprovider

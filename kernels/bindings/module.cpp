@@ -12,6 +12,9 @@ void bind_pieces(nb::module_ &m);
 void bind_spline(nb::module_ &m);
 
 NB_MODULE(_kernels, m) {
+    // An interpreter that ends while a traceback or a worker still holds an object is no leak; a
+    // user would read a page of warnings.
+    nb::set_leak_warnings(false);
     m.attr("MAX_DEGREE") = ss::kMaxDegree;
     bind_curve(m);
     bind_distance(m);

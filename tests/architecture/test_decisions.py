@@ -6,7 +6,7 @@ import re
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-import pytest
+from tests.support.each import each
 from tests.support.places import ROOT
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ def test_some_constants_are_explained():
     assert len(EXPLAINED) > 25
 
 
-@pytest.mark.parametrize(("ident", "name", "where"), EXPLAINED)
+@each(EXPLAINED)
 def test_an_explained_constant_cites_its_decision(ident, name, where):
     assert ident in comment_of(name, file_of(where)), f"{name} in {where} does not cite {ident}"
 
@@ -132,7 +132,7 @@ def cited_by_constants(path: Path) -> set[str]:
     return {ident for line in above for ident in ID.findall(line)}
 
 
-@pytest.mark.parametrize("folder", ["src", "kernels"])
+@each(["src", "kernels"])
 def test_the_decision_that_a_constant_cites_names_the_file(folder):
     named = {(ident, file_of(where)) for ident, _, where in EXPLAINED}
     for path in SOURCES:

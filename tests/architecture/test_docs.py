@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import re
 from runpy import run_path
-from typing import TYPE_CHECKING
 
-import pytest
+from tests.support.each import each
 from tests.support.places import ROOT
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 PACKAGE = ROOT / "src" / "shapespline"
 PAGES = sorted(
@@ -37,12 +33,7 @@ NAMES = {
 }
 
 
-def label(path: Path) -> str:
-    """A page's name in the report."""
-    return path.relative_to(ROOT).as_posix()
-
-
-@pytest.mark.parametrize("page", PAGES, ids=label)
+@each(PAGES)
 def test_links_lead_somewhere(page):
     links = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", page.read_text("utf-8"))
     for link in links:
@@ -50,7 +41,7 @@ def test_links_lead_somewhere(page):
             assert (page.parent / link).exists(), link
 
 
-@pytest.mark.parametrize("page", ABOUT_CODE, ids=label)
+@each(ABOUT_CODE)
 def test_files_that_are_named_exist(page):
     # `a/b.py` counts from the package, `b.py` and `b.hpp` may lie anywhere.
     for name in re.findall(r"`([\w/]+\.(?:py|hpp))`", page.read_text("utf-8")):
@@ -66,7 +57,7 @@ def test_files_that_are_named_exist(page):
             assert any(place.exists() for place in places), name
 
 
-@pytest.mark.parametrize("page", sorted((ROOT / "docs" / "engines").glob("*.md")), ids=label)
+@each(sorted((ROOT / "docs" / "engines").glob("*.md")))
 def test_formulas_in_the_text_stand_on_one_line(page):
     # A formula that a line break cuts is shown as its source.
     text = re.sub(r"\$\$.*?\$\$", "", page.read_text("utf-8"), flags=re.DOTALL)
@@ -82,7 +73,7 @@ WORDS = {
 }
 
 
-@pytest.mark.parametrize("page", ABOUT_CODE, ids=label)
+@each(ABOUT_CODE)
 def test_names_of_code_exist(page):
     # `Class.method`, `Class::method`, `a_name(...)`: the last part is a word of some source.
     text = re.sub(r"(?m)^(    .*|!\[.*)$", "", page.read_text("utf-8"))
@@ -91,15 +82,13 @@ def test_names_of_code_exist(page):
             assert re.split(r"\.|::", name)[-1] in WORDS, name
 
 
-@pytest.mark.parametrize(
-    "room",
+@each(
     [
         folder
         for folder in sorted(PACKAGE.rglob("*"))
         if folder.is_dir()
         and len([path for path in folder.glob("*.py") if path.name != "__init__.py"]) > FEW_FILES
-    ],
-    ids=label,
+    ]
 )
 def test_a_large_room_has_a_readme_that_names_its_files(room):
     named = re.findall(r"`([\w/]+)(?:\.py)?`", (room / "README.md").read_text("utf-8"))

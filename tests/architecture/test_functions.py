@@ -6,8 +6,8 @@ import ast
 import io
 import tokenize
 
-import pytest
-from tests.support.sources import MODULES
+from tests.support.each import each
+from tests.support.sources import MODULES, text_of
 
 # Lines of code of a body: without its docstring, comments and blank lines.
 MOST_LINES = 60
@@ -29,25 +29,24 @@ FILLING = {
 def too_large(source):
     """(line, name, lines of code, positional parameters) of functions beyond the limits."""
     lines = source.splitlines()
-    tokens = list(tokenize.generate_tokens(io.StringIO(source).readline))
+    code_lines = {
+        line
+        for token in tokenize.generate_tokens(io.StringIO(source).readline)
+        if token.type not in FILLING
+        for line in range(token.start[0], token.end[0] + 1)
+    }
     found = []
     for node in ast.walk(ast.parse(source)):
         if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             continue
         body = node.body[1:] if ast.get_docstring(node) is not None else node.body
         first = body[0].lineno if body else node.end_lineno
-        code = {
-            line
-            for token in tokens
-            if token.type not in FILLING and first <= token.start[0] <= node.end_lineno
-            for line in range(token.start[0], token.end[0] + 1)
-        }
         given = [*node.args.posonlyargs, *node.args.args]
         positional = [name for name in given if name.arg not in ("self", "cls")]
         top = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
         head = [*lines[max(top - 2, 0) : top - 1], *lines[node.lineno : first - 1]]
         excused = any(line.strip().startswith(REASON) for line in head)
-        n_lines = len(code) if body else 0
+        n_lines = len(code_lines & set(range(first, node.end_lineno + 1))) if body else 0
         if (n_lines > MOST_LINES or len(positional) > MOST_POSITIONAL) and not excused:
             found.append((node.lineno, node.name, n_lines, len(positional)))
     return found
@@ -68,6 +67,6 @@ def test_the_measure_by_hand():
     assert too_large(f"def f():\n{text}") == [(1, "f", 62, 0)]
 
 
-@pytest.mark.parametrize("name", MODULES)
+@each(MODULES)
 def test_no_function_is_long_or_wide(name):
-    assert too_large(MODULES[name].read_text(encoding="utf-8")) == []
+    assert too_large(text_of(MODULES[name])) == []

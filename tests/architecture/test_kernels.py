@@ -6,7 +6,7 @@ import ast
 import re
 from typing import TYPE_CHECKING
 
-import pytest
+from tests.support.each import each
 from tests.support.places import ROOT
 
 if TYPE_CHECKING:
@@ -39,11 +39,6 @@ def forbidden(folder: str, includes: list[str]) -> list[str]:
     return [name for name in includes if name.split("/")[1] not in allowed]
 
 
-by_header = pytest.mark.parametrize(
-    "path", HEADERS, ids=lambda path: path.relative_to(FOLDERS).as_posix()
-)
-
-
 def test_the_table_names_the_folders():
     assert {path.name for path in FOLDERS.iterdir()} == set(MAY_INCLUDE)
     assert forbidden("curve", ["shapespline/base/vec2.hpp", "shapespline/spline/state.hpp"]) == [
@@ -51,14 +46,14 @@ def test_the_table_names_the_folders():
     ]
 
 
-@by_header
+@each(HEADERS)
 def test_arrows_run_one_way(path):
     includes = included(path)
     assert all((INCLUDE / name).is_file() for name in includes)
     assert not forbidden(path.parent.name, includes)
 
 
-@by_header
+@each(HEADERS)
 def test_the_namespace_is_that_of_the_folder(path):
     folder = path.parent.name
     wanted = "shapespline" if folder in GROUND else f"shapespline::{folder}"

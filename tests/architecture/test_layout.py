@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import pytest
+from tests.support.each import each
 from tests.support.places import ROOT
 
 if TYPE_CHECKING:
@@ -14,11 +14,7 @@ PACKAGE = ROOT / "src" / "shapespline"
 UNIT = ROOT / "tests" / "unit"
 
 
-@pytest.mark.parametrize(
-    "path",
-    sorted(UNIT.rglob("test_*.py")),
-    ids=lambda path: path.relative_to(UNIT).as_posix(),
-)
+@each(sorted(UNIT.rglob("test_*.py")))
 def test_a_unit_test_is_named_after_the_module_it_tests(path: Path):
     room = PACKAGE / path.parent.relative_to(UNIT)
     modules = {module.stem for module in room.glob("*.py")}

@@ -8,12 +8,13 @@ import subprocess
 import sys
 
 import pytest
+from tests.support.each import each
 from tests.support.places import ROOT
-from tests.support.sources import MODULES, SOURCES, imports
+from tests.support.sources import MODULES, SOURCES, imports, tree_of
 
 import shapespline
 
-by_module = pytest.mark.parametrize("name", [name for name in MODULES if name])
+by_module = each(name for name in MODULES if name)
 
 
 def first(name):
@@ -50,7 +51,7 @@ def test_the_command_line_uses_public_names_only(name):
         if module.startswith("shapespline"):
             assert "._" not in module
             assert imported is None or not imported.startswith("_"), f"{module}.{imported}"
-    tree = ast.parse(MODULES[name].read_text(encoding="utf-8"))
+    tree = tree_of(MODULES[name])
     used = {
         node.attr
         for node in ast.walk(tree)
@@ -71,7 +72,7 @@ def test_scipy_is_imported_when_it_is_asked_for(name):
 def test_the_library_neither_prints_nor_exits(name):
     if first(name) in ("cli", "__main__"):
         return
-    for node in ast.walk(ast.parse(MODULES[name].read_text(encoding="utf-8"))):
+    for node in ast.walk(tree_of(MODULES[name])):
         if isinstance(node, ast.Call):
             called = ast.unparse(node.func)
             assert called not in ("print", "exit", "quit", "sys.exit", "os._exit"), name
@@ -80,11 +81,7 @@ def test_the_library_neither_prints_nor_exits(name):
         assert not isinstance(node, ast.Assert), f"assert in {name}, line {node.lineno}"
 
 
-@pytest.mark.parametrize(
-    "path",
-    [*SOURCES, *sorted((ROOT / "kernels").rglob("*.[ch]pp"))],
-    ids=lambda path: path.relative_to(ROOT).as_posix(),
-)
+@each([*SOURCES, *sorted((ROOT / "kernels").rglob("*.[ch]pp"))])
 def test_no_file_is_long_or_wide(path):
     lines = path.read_text(encoding="utf-8").splitlines()
     assert len(lines) <= 400
@@ -94,7 +91,7 @@ def test_no_file_is_long_or_wide(path):
 
 @by_module
 def test_every_module_says_what_it_is(name):
-    assert ast.get_docstring(ast.parse(MODULES[name].read_text(encoding="utf-8")))
+    assert ast.get_docstring(tree_of(MODULES[name]))
 
 
 # --- the public face ---------------------------------------------------------------------------
@@ -133,7 +130,7 @@ def test_public_names():
         _ = shapespline.nothing
 
 
-@pytest.mark.parametrize("name", sorted(shapespline._HOME))
+@each(sorted(shapespline._HOME))
 def test_every_public_name_resolves_to_what_its_module_defines(name):
     home = shapespline._HOME[name]
     module = importlib.import_module(f"shapespline.{home}")

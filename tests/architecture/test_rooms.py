@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
-import pytest
+from tests.support.each import each
 from tests.support.places import ROOT
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def arrows(path: Path) -> list[tuple[str, str]]:
     ]
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
+@each(SOURCES)
 def test_arrows_run_down_the_table_and_stop_at_the_door(path):
     where = path.relative_to(PACKAGE).as_posix()
     here = room_of(where.removesuffix(".py").removesuffix("/__init__").replace("/", "."))
@@ -130,13 +130,13 @@ def test_arrows_run_down_the_table_and_stop_at_the_door(path):
             assert module == there, f"{where} reaches past the door of {there}: {module}"
 
 
-@pytest.mark.parametrize("where", sorted(path.name for path in (PACKAGE / "values").glob("*.py")))
+@each(sorted(path.name for path in (PACKAGE / "values").glob("*.py")))
 def test_methods_of_values_that_climb_are_the_expected_ones(where):
     where = f"values/{where}"
     assert climbing(PACKAGE / where) == EXPECTED_METHODS.get(where, {})
 
 
-@pytest.mark.parametrize("room", sorted(MAY_IMPORT))
+@each(sorted(MAY_IMPORT))
 def test_a_room_names_what_it_offers(room):
     tree = ast.parse((PACKAGE / room.replace(".", "/") / "__init__.py").read_text("utf-8"))
     offered = [

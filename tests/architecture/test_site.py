@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-import pytest
+from tests.support.each import each
 from tests.support.places import DATA, ROOT
 
 import shapespline as ss
@@ -40,7 +40,7 @@ def test_the_page_of_statuses_names_all_and_every_error():
             assert f"`{name}`" in page, name
 
 
-@pytest.mark.parametrize("section", SECTIONS, ids=lambda path: path.name)
+@each(SECTIONS)
 def test_the_first_page_of_a_section_leads_to_all_of_it(section):
     # The site takes its contents from these links (docs/conf.py).
     linked = set(re.findall(r"\]\(([\w-]+\.md)", (section / "README.md").read_text("utf-8")))
@@ -60,7 +60,7 @@ def test_the_gallery_has_two_dozen_shapes():
     assert len(GALLERY) >= 24
 
 
-@pytest.mark.parametrize("script", GALLERY, ids=lambda path: path.stem)
+@each(GALLERY)
 def test_a_script_of_the_gallery_is_short_and_its_shapes_come_along(script):
     text = script.read_text("utf-8")
     assert len(text.splitlines()) <= 60

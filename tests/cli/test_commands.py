@@ -235,6 +235,7 @@ def test_standard_streams(tmp_path):
     assert (tmp_path / "x.svg").read_bytes() == done.stdout
 
 
+@pytest.mark.slow
 def test_standard_input_that_is_broken():
     done = piped("fit", "-", "-o", "-", "-f", "svg", given=b"1,2\n3,x\n")
     assert (done.returncode, done.stdout) == (1, b"")

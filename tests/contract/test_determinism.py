@@ -45,6 +45,7 @@ def test_threads_and_blocks_give_the_same_bits(tmp_path):
         assert_array_equal(other.feet[5:5000:7], alone.feet[5:5000:7])
 
 
+@pytest.mark.slow
 def test_zarr_arrays_give_the_same_bits(tmp_path):
     zarr = pytest.importorskip("zarr", reason="needs zarr")
     points = rose(N)

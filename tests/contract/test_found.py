@@ -201,6 +201,7 @@ def test_more_points_of_a_coast_cost_no_more(n, seed):
     assert fit.n_stored_points <= 1.1 * few
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [31, 0, 3, 12])
 def test_thin_trailing_edges_do_not_cross(seed):
     shape = drawn(seed, "airfoil")
@@ -221,6 +222,7 @@ def test_a_crossing_is_said_where_nothing_repairs_it(options):
     assert "crosses" in fit.status.value
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [6, 27, 38])
 def test_repairs_do_not_depend_on_the_direction(seed):
     """Pieces that cross were fitted again in the order of the data as they came."""

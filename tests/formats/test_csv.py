@@ -41,6 +41,7 @@ def written(points, separation, header="", comment="", newline="\n", tail=""):
     return newline.join(lines) + tail
 
 
+@pytest.mark.slow
 @given(
     point_lists,
     separations,

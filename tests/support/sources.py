@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from functools import cache
 
 from tests.support.places import ROOT
 
@@ -51,7 +52,17 @@ class Imports(ast.NodeVisitor):
         self.found += [(node.module, alias.name, self.when) for alias in node.names]
 
 
+@cache
+def text_of(path):
+    return path.read_text(encoding="utf-8")
+
+
+@cache
+def tree_of(path):
+    return ast.parse(text_of(path))
+
+
 def imports(path):
     visitor = Imports()
-    visitor.visit(ast.parse(path.read_text(encoding="utf-8")))
+    visitor.visit(tree_of(path))
     return visitor.found

@@ -23,6 +23,7 @@ from shapespline.values import BSplineCurve, Piece
 NONE_MARKED = np.empty(0, dtype=np.int64)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("distance", [1e-4, 1e-2, 0.3])
 @pytest.mark.parametrize(
     "points",

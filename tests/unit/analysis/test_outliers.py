@@ -10,6 +10,7 @@ from shapespline import Contour
 from shapespline.analysis.outliers import LONGEST_RUN, find_outliers
 
 
+@pytest.mark.slow
 def test_none_on_clean_outlines(all_outlines):
     for name, contour in all_outlines:
         assert len(find_outliers(contour)) == 0, name

@@ -88,6 +88,7 @@ def test_through_an_end_fixes_the_ends():
     assert fit.curve([0.0, 1.0]) == pytest.approx(contour.points[[0, -1]], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_through_many_of_many_points():
     contour = flower(20_000)
     through = np.arange(0, 20_000, 1000)

@@ -114,6 +114,7 @@ def test_progress_and_cancelling():
         ss.fit_large(points, tolerance=0.1, progress=lambda done, total: True)
 
 
+@pytest.mark.slow
 def test_it_can_be_written_and_read_again(tmp_path):
     fit = ss.fit_large(rose(N), tolerance=0.1)
     ss.write(tmp_path / "rose.json", ss.Drawing([fit]))

@@ -121,6 +121,7 @@ def test_slits_stay_open_at_the_price_of_the_pieces_beside_them():
     assert_array_equal(alone.control_points, fit.control_points)
 
 
+@pytest.mark.slow
 def test_a_promise_is_not_given_up_for_a_crossing():
     # A stroke that runs to and fro over itself: whose points are whose cannot be told.
     t = np.linspace(0, 6 * np.pi, 300)

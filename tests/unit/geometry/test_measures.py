@@ -109,6 +109,7 @@ def test_a_parabola_in_closed_form():
     assert np.abs(along - np.linspace(0, exact, 9)).max() < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("curve", [blob(9, 2), blob(12), wave(9, 5), blob(14, 7, centre=(1e6, 3))])
 def test_boxes_and_insides_of_curves(curve):
     u = np.linspace(0, 1, 20001)

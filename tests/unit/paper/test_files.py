@@ -131,6 +131,7 @@ def test_a_film_needs_curves():
         film(run_paper(flower(200), 6, limits=SHORT))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("every", [1, 5, 100])
 @pytest.mark.parametrize(
     "method", ["d-bfgs", "levenberg-marquardt", "insertion-removal", "differential-evolution"]

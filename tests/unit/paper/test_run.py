@@ -207,6 +207,7 @@ def test_number_of_control_points_is_the_one_asked_for(blob, n):
     assert run_paper(blob, LENGTH, n_control_points=n).fit.n_control_points == n
 
 
+@pytest.mark.slow
 def test_similar_outlines_have_the_same_sensible_run(blob):
     once, twice = (run_paper(Contour(f * blob.points, closed=True), LENGTH) for f in (1, 8))
     assert twice.start_error == 8 * once.start_error
@@ -339,6 +340,7 @@ def test_direct_d_bfgs_needs_less_than_a_tenth_of_the_literal_evaluations(counte
 OWN = replace(LITERAL, window=7, prominence=0.05, start="cpda-halved", max_evaluations=300)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reading", [SENSIBLE, replace(LITERAL, max_evaluations=300), OWN])
 @pytest.mark.parametrize("method", [None, "levenberg-marquardt", "l-bfgs"])
 def test_initial_curve_and_optimize_are_the_run(blob, reading, method):

@@ -32,6 +32,7 @@ def assert_stands_for(proxy, points, closed):
     assert (np.diff(proxy.indices) > 0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("closed", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_clean_points_are_thinned(closed):
     points = rose(N) if closed else rose(N)[: 3 * N // 4]

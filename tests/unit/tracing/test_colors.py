@@ -138,6 +138,7 @@ def picture(tmp_path):
     return tmp_path / "logo.png"
 
 
+@pytest.mark.slow
 def test_files_have_the_colours(shapespline, picture, tmp_path):
     for ending in ("svg", "pdf", "dxf", "png", "json"):
         output = tmp_path / f"out.{ending}"

@@ -53,6 +53,7 @@ def blobs(seed, side=48):
     return np.rint(127.5 + 120 * total / np.abs(total).max()).astype(np.uint8)
 
 
+@pytest.mark.slow
 @given(
     st.floats(5, 30),
     st.tuples(st.floats(38, 42), st.floats(38, 42)),
@@ -121,6 +122,7 @@ def test_nesting_and_orientation_by_hand():
     assert [np.sign(signed_area(c.points)) for c in shape] == [1, -1, 1, 1, -1]
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10_000))
 @settings(max_examples=40)
 def test_nesting_agrees_with_an_independent_point_in_polygon(seed):
@@ -151,6 +153,7 @@ def test_no_two_points_coincide_even_where_pixels_lie_on_the_level(seed, level):
             assert contour.points.max() <= 48
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10_000))
 @settings(max_examples=25)
 def test_turned_flipped_and_inverted_pictures_give_the_same_outlines(seed):

@@ -32,6 +32,7 @@ def counted(shape):
     return len(shape) - holes, holes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("light", LIGHTS.values(), ids=LIGHTS.keys())
 def test_uneven_light_is_found_and_told(light):
     expected = (9, 4)  # N, o, dot, 9, g, a, its two dots and the bar; counters of o, 9, g and a

@@ -29,6 +29,7 @@ def recovered(points, closed, seed=0):
     return len(true & pairs) / len(true), found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["hand620_closed", "leaf840_closed", "plane1100_closed", "mdi_fan_c0"]
 )

@@ -208,6 +208,7 @@ def test_robust_losses_shrug_off_outliers(loss, known):
 # --- beside orthogonal distance regression -----------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [1.0, 0.6], ids=["arc", "ellipse"])
 @pytest.mark.filterwarnings("ignore")
 def test_odrpack_finds_its_ellipse_inside_our_band(ratio):

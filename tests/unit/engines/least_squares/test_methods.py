@@ -166,6 +166,7 @@ def test_linear_d_bfgs_starts_from_the_linear_fit():
     assert np.linalg.norm(fit.control_points - expected) <= bound
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("metric", ["point", "tangent", "squared"])
 def test_feet_of_the_alternating_methods_are_feet_on_the_whole_curve(metric):
     """Every fourth point of the palm: local Newton steps left 24 of 155 on a wrong branch."""

@@ -11,6 +11,7 @@ from shapespline.engines.spline.fairness import INTERVAL_RATIO, SPEED_RATIO
 from shapespline.values import BSplineCurve, Contour, clamped_knots
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("make", [blob, wave])
 def test_as_an_outside_checker_finds(make, seed):

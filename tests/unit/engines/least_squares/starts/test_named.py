@@ -30,6 +30,7 @@ def test_every_start_of_a_given_size(name, closed):
     assert np.sqrt(np.mean(off**2)) < 0.1 * contour.box_diagonal
 
 
+@pytest.mark.slow
 @names
 def test_every_name_in_fit_curve_and_in_a_reading(name):
     contour = flower(240)

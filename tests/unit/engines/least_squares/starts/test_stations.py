@@ -144,6 +144,7 @@ def test_too_many_and_too_few():
     assert_array_equal(dense.stations, np.arange(40))
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(st.data())
 def test_stations_are_distinct_and_inside_whatever_the_density(data):
