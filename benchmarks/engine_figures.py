@@ -11,9 +11,26 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
-from PIL import Image
 
 import shapespline as ss
+from benchmarks.figure_style import (
+    BLUE,
+    FONT_SIZE,
+    GREEN,
+    GREY,
+    INK,
+    KINDS,
+    ORANGE,
+    PALE,
+    RED,
+    canvas,
+    draw_pieces,
+    labelled,
+    outline,
+    plane,
+    sampled,
+    save,
+)
 from shapespline import _kernels
 from shapespline.analysis import noise_level
 from shapespline.engines.least_squares import CurveProblem
@@ -25,7 +42,7 @@ from shapespline.fitting.problem import Problem
 from shapespline.fitting.repair.assignment import DataRun
 from shapespline.fitting.repair.clearance import Sides, moved
 from shapespline.fitting.solve import search
-from shapespline.geometry import crossing_pairs, nearest, turn_between
+from shapespline.geometry import crossing_pairs, nearest
 from shapespline.monitor import Monitor
 from shapespline.solvers import LevenbergMarquardt, Limits, minimize
 
@@ -38,18 +55,7 @@ if TYPE_CHECKING:
     from shapespline.values import Contour, Fit, Piece
 
 ROOT = Path(__file__).parent.parent
-DATA = ROOT / "examples" / "data" / "outlines"
 TARGET = ROOT / "docs" / "figures" / "engines"
-BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
-GREY, PALE, INK = "#8A8A8A", "#D0D0D0", "#333333"
-KINDS = {"line": GREEN, "bezier": BLUE, "spline": RED}
-FONT_SIZE = 11
-
-
-def outline(name: str) -> Contour:
-    """An outline of the corpus."""
-    (contour,) = ss.read(DATA / f"{name}.csv")
-    return contour
 
 
 def by_pieces(contour: Contour, tolerance: float) -> Fit:
@@ -62,66 +68,6 @@ def by_removal(contour: Contour, tolerance: float, monitor: Monitor) -> Fit:
     """What knot removal finds until the monitor ends it."""
     settings = Settings(tolerance=tolerance, form="spline")
     return search(Problem(Request.of(contour, None, settings)), monitor).fit
-
-
-def canvas(
-    width: float, height: float, count: int = 1, **more: object
-) -> tuple[Figure, list[Axes]]:
-    """A figure with some axes side by side."""
-    figure = Figure(figsize=(width, height), layout="constrained")
-    axes = np.atleast_1d(figure.subplots(1, count, **more)).ravel().tolist()
-    for one in axes:
-        one.tick_params(labelsize=FONT_SIZE - 1)
-        one.spines[["top", "right"]].set_visible(False)
-    return figure, axes
-
-
-def plane(axes: Axes, title: str) -> None:
-    """Axes for shapes: equal units, nothing around."""
-    axes.set_aspect("equal")
-    axes.axis("off")
-    axes.set_title(title, fontsize=FONT_SIZE + 1, color=INK)
-
-
-def labelled(axes: Axes, x: str, y: str, title: str) -> None:
-    """Axes for figures."""
-    axes.set_xlabel(x, fontsize=FONT_SIZE)
-    axes.set_ylabel(y, fontsize=FONT_SIZE)
-    axes.set_title(title, fontsize=FONT_SIZE + 1, color=INK)
-
-
-def save(figure: Figure, name: str) -> None:
-    """A picture of few colours."""
-    TARGET.mkdir(parents=True, exist_ok=True)
-    path = TARGET / f"{name}.png"
-    figure.savefig(path, dpi=100)
-    Image.open(path).convert("P", palette=Image.Palette.ADAPTIVE, colors=64).save(
-        path, optimize=True
-    )
-    print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1000} kB")
-
-
-def sampled(piece: Piece) -> FloatArray:
-    """Points along a piece."""
-    curve = ss.BSplineCurve(piece.knots, piece.control_points, piece.degree)
-    return curve(np.linspace(0.0, 1.0, 2 if piece.degree == 1 else 60))
-
-
-def draw_pieces(axes: Axes, pieces: Sequence[Piece], closed: bool) -> None:
-    """Pieces by their kind; nodes open where the curve is smooth, full at corners."""
-    for piece in pieces:
-        axes.plot(*sampled(piece).T, color=KINDS[piece.kind], lw=2.0, zorder=3)
-    for i in range(0 if closed else 1, len(pieces)):
-        sharp = abs(turn_between(pieces[i - 1], pieces[i])) > np.radians(1.01)
-        axes.plot(
-            *pieces[i].control_points[0],
-            "o",
-            ms=5.5,
-            mec=INK,
-            mew=1.1,
-            mfc=INK if sharp else "white",
-            zorder=4,
-        )
 
 
 def stored(pieces: Sequence[Piece]) -> int:
@@ -156,7 +102,7 @@ def pieces_stages() -> None:
     axes[2].plot([], [], "o", color=INK, label="corner")
     axes[2].plot([], [], "o", mfc="white", mec=INK, label="smooth node")
     figure.legend(loc="outside lower center", ncols=5, frameon=False, fontsize=FONT_SIZE)
-    save(figure, "pieces-stages")
+    save(figure, TARGET / "pieces-stages.png")
 
 
 def lawson_rounds() -> None:
@@ -196,7 +142,7 @@ def lawson_rounds() -> None:
     right.set_ylim(0.0, None)
     labelled(right, "round", "% of the diagonal", "no cubic can be nearer than the lower bound")
     right.legend(frameon=False, fontsize=FONT_SIZE)
-    save(figure, "pieces-lawson")
+    save(figure, TARGET / "pieces-lawson.png")
 
 
 def spline_stages() -> None:
@@ -234,7 +180,7 @@ def spline_stages() -> None:
         below.tick_params(labelsize=FONT_SIZE - 1)
         below.set_xlabel("span", fontsize=FONT_SIZE)
     axes[1][0].set_ylabel("interval / smallest", fontsize=FONT_SIZE)
-    save(figure, "spline-stages")
+    save(figure, TARGET / "spline-stages.png")
 
 
 def methods_convergence() -> None:
@@ -262,7 +208,7 @@ def methods_convergence() -> None:
     right.set_ylim(1e-5, None)
     labelled(right, "iteration", "cost over the least, minus 1", "the same start, six methods")
     right.legend(frameon=False, fontsize=FONT_SIZE)
-    save(figure, "least-squares-methods")
+    save(figure, TARGET / "least-squares-methods.png")
 
 
 def stray_residuals() -> None:
@@ -281,7 +227,7 @@ def stray_residuals() -> None:
         one.set_xlim(contour.points[:, 0].min() - 15, contour.points[:, 0].max() + 15)
         one.set_ylim(contour.points[:, 1].min() - 12, contour.points[:, 1].max() + 32)
         plane(one, f"{name}\ndata to curve {there:.2f} %, both ways {off:.2f} % of the diagonal")
-    save(figure, "least-squares-stray")
+    save(figure, TARGET / "least-squares-stray.png")
 
 
 def estimation_size() -> None:
@@ -308,7 +254,7 @@ def estimation_size() -> None:
         right, "control points", "units of the variance", "of the sizes tried the cheapest is taken"
     )
     right.legend(frameon=False, fontsize=FONT_SIZE)
-    save(figure, "estimation-size")
+    save(figure, TARGET / "estimation-size.png")
 
 
 def _halved(points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -386,7 +332,7 @@ def certified_bounds() -> None:
     right.invert_xaxis()
     labelled(right, "relative gap asked for", "distance, data units", "halving closes the gap")
     right.legend(frameon=False, fontsize=FONT_SIZE)
-    save(figure, "certification-bounds")
+    save(figure, TARGET / "certification-bounds.png")
 
 
 def _where_it_crosses(pieces: Sequence[Piece]) -> FloatArray:
@@ -431,7 +377,7 @@ def crossings_repaired() -> None:
         x, y = middle + np.array([-3.5, -1.5]) * tolerance
         one.plot([x, x + tolerance], [y, y], color=INK, lw=3)
         one.text(x + 1.2 * tolerance, y, "\u03c4", va="center", fontsize=FONT_SIZE + 1)
-    save(figure, "repairs-crossings")
+    save(figure, TARGET / "repairs-crossings.png")
 
 
 FIGURES = (

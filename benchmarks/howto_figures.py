@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import shapespline as ss
+from benchmarks.figure_style import save
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -46,15 +47,6 @@ def canvas(count: int) -> tuple[Figure, list[Axes]]:
     return figure, axes
 
 
-def save(figure: Figure, name: str) -> None:
-    TARGET.mkdir(parents=True, exist_ok=True)
-    path = TARGET / f"{name}.png"
-    figure.savefig(path, dpi=80)
-    Image.open(path).convert("P", palette=Image.Palette.ADAPTIVE, colors=64).save(
-        path, optimize=True
-    )
-
-
 def show_picture(axes: Axes, path: Path) -> None:
     picture = Image.open(path).convert("L")
     axes.imshow(picture, cmap="gray", extent=(0, picture.width, 0, picture.height))
@@ -81,7 +73,7 @@ def logo_to_dxf(folder: Path) -> None:
         errors = len(document.audit().errors)
         said = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
         axes.set_title(f"{name} read by ezdxf: {said}; {errors} errors")
-    save(figure, "logo_to_dxf")
+    save(figure, TARGET / "logo_to_dxf.png", dpi=80)
 
 
 def leaf_to_step(folder: Path) -> None:
@@ -97,7 +89,7 @@ def leaf_to_step(folder: Path) -> None:
     ends = np.array([piece.control_points[0] for piece in fit.pieces])
     right.plot(*ends.T, "o", color=ORANGE, ms=3)
     right.set_title(f"leaf.step through OpenCASCADE: one closed wire, {len(fit.pieces)} edges")
-    save(figure, "leaf_to_step")
+    save(figure, TARGET / "leaf_to_step.png", dpi=80)
 
 
 def points_to_svg(folder: Path) -> None:
@@ -117,7 +109,7 @@ def points_to_svg(folder: Path) -> None:
         samples = np.array([path.point(t) for t in np.linspace(0, 1, 1500)], dtype=complex)
         right.plot(samples.real, -samples.imag, color=BLUE, lw=1.5)
     right.set_title("cloud.svg read by svgelements")
-    save(figure, "points_to_svg")
+    save(figure, TARGET / "points_to_svg.png", dpi=80)
 
 
 def folder_of_files(folder: Path) -> None:
@@ -136,7 +128,7 @@ def folder_of_files(folder: Path) -> None:
             one.fill(*fit.spline(np.linspace(0, 1, 3000)).T, color=BLUE, alpha=0.5)
         one.set_title(path.name, fontsize=8)
     figure.set_size_inches(16, 3)
-    save(figure, "folder_of_files")
+    save(figure, TARGET / "folder_of_files.png", dpi=80)
 
 
 def main() -> None:

@@ -53,6 +53,14 @@ def more_outlines():
     return contours
 
 
+@pytest.fixture(scope="session")
+def blob():
+    """A closed outline without symmetry, with maxima of irregular heights."""
+    t = 2 * np.pi * np.arange(97) / 97
+    r = 10 + 2 * np.cos(5 * t) + 0.7 * np.sin(3 * t + 0.4) + 0.1 * np.sin(17 * t)
+    return Contour(np.column_stack([r * np.cos(t), r * np.sin(t)]), closed=True)
+
+
 @pytest.fixture
 def shapespline(monkeypatch, capsys):
     """Run the command line in this process: exit code, standard output, standard error."""

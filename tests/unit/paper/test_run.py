@@ -1,38 +1,22 @@
 """The published pipeline: its literal constants, its error, its report, and one claim about it."""
 
-import csv
-import io
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from PIL import Image
 from scipy.interpolate import BSpline
 from tests.support.places import DATA
 from tests.support.shapes import flower, wave
-from typer.testing import CliRunner
 
-from shapespline import LITERAL, SENSIBLE, Contour, Drawing, initial_curve, optimize, read, write
-from shapespline.cli.main import app
+from shapespline import LITERAL, SENSIBLE, Contour, initial_curve, optimize
 from shapespline.engines.least_squares import measured
-from shapespline.errors import FormatError, InvalidInputError, ShapesplineError
+from shapespline.errors import InvalidInputError
 from shapespline.fitting import optimization
-from shapespline.paper import report as paper_report
-from shapespline.paper.files import DATA_FILES
-from shapespline.paper.report import FIGURES, TABLES, check_folder, write_report
 from shapespline.paper.run import paper_error, run_paper
 from shapespline.solvers.iteration import Limits
 from shapespline.solvers.quasi_newton import DirectDiagonal, InverseDiagonal
 
 LENGTH = 4
-
-
-@pytest.fixture(scope="module")
-def blob():
-    """A closed outline without symmetry, with maxima of irregular heights."""
-    t = 2 * np.pi * np.arange(97) / 97
-    r = 10 + 2 * np.cos(5 * t) + 0.7 * np.sin(3 * t + 0.4) + 0.1 * np.sin(17 * t)
-    return Contour(np.column_stack([r * np.cos(t), r * np.sin(t)]), closed=True)
 
 
 @pytest.fixture(scope="module")
@@ -225,93 +209,6 @@ def test_bad_arguments_raise(blob, arguments):
 # The report
 
 
-@pytest.fixture(scope="module")
-def sensible(blob):
-    return run_paper(blob, LENGTH)
-
-
-@pytest.mark.parametrize("which", ["literal", "sensible"])
-@pytest.mark.slow
-def test_report_is_complete_and_readable(which, tmp_path, request):
-    pytest.importorskip("matplotlib")
-    run = request.getfixturevalue(which)
-    folder = tmp_path / "figures"
-    paths = write_report(run, folder)
-    assert [path.name for path in paths] == [*FIGURES, *TABLES, *DATA_FILES]
-    assert sorted(folder.iterdir()) == sorted(paths)
-    for name in FIGURES:
-        with Image.open(folder / name) as picture:
-            picture.load()
-            assert min(picture.size) > 400
-    text = (folder / "report.md").read_text()
-    assert all(f"]({name})" in text for name in FIGURES)
-    rows = list(csv.reader(io.StringIO((folder / "table.csv").read_text())))
-    table = {row[0]: row[1:] for row in rows}
-    assert all(len(row) == 3 for row in rows)
-    assert table["reading"][0] == which
-    diagonal = run.contour.box_diagonal
-    for quantity, value in (
-        ("start error E_0", run.start_error),
-        ("final error E", run.final_error),
-        ("rms distance", run.fit.rms_distance),
-        ("maximum distance", run.fit.max_distance),
-        ("two-sided distance", run.fit.hausdorff_distance),
-    ):
-        absolute, relative = map(float, table[quantity])
-        assert absolute == pytest.approx(value, rel=1e-5)  # six digits
-        assert relative == pytest.approx(value / diagonal, rel=1e-5)
-        assert f"| {quantity} | {table[quantity][0]} |" in text
-    assert int(table["control points"][0]) == run.fit.n_control_points
-    assert "iterations" in table["end"][0]
-
-
-@pytest.mark.slow
-def test_report_is_the_same_twice_and_replaces_an_older_one(sensible, tmp_path):
-    pytest.importorskip("matplotlib")
-    first = [path.read_bytes() for path in write_report(sensible, tmp_path / "a")]
-    (tmp_path / "a" / "table.csv").write_text("old")
-    assert first == [path.read_bytes() for path in write_report(sensible, tmp_path / "a")]
-
-
-def test_missing_parent_is_one_sentence_and_leaves_nothing(sensible, tmp_path):
-    with pytest.raises(FormatError, match="does not exist; create it first") as raised:
-        write_report(sensible, tmp_path / "missing" / "figures")
-    assert isinstance(raised.value, ShapesplineError)
-    assert "\n" not in str(raised.value)
-    assert not list(tmp_path.iterdir())
-
-
-def test_file_in_the_place_of_the_folder_is_left_alone(sensible, tmp_path):
-    file = tmp_path / "figures"
-    file.write_text("mine")
-    with pytest.raises(FormatError, match="it is a file"):
-        write_report(sensible, file)
-    assert file.read_text() == "mine"
-
-
-def test_folder_that_cannot_be_written_is_refused_before_any_work(tmp_path, monkeypatch):
-    monkeypatch.setattr(paper_report.os, "access", lambda *_: False)  # root may write everywhere
-    with pytest.raises(FormatError, match="write-protected"):
-        check_folder(tmp_path / "figures")
-    with pytest.raises(FormatError, match="write-protected"):
-        check_folder(tmp_path)
-
-
-@pytest.mark.slow
-def test_figure_that_fails_leaves_nothing(sensible, tmp_path, monkeypatch):
-    from shapespline.paper import figures as figures
-
-    pytest.importorskip("matplotlib")
-
-    def fail(*_, **__):
-        raise MemoryError
-
-    monkeypatch.setattr(figures, "plot_convergence", fail)
-    with pytest.raises(MemoryError):
-        write_report(sensible, tmp_path / "figures")
-    assert not list(tmp_path.iterdir())
-
-
 # The claim of this project
 
 
@@ -354,42 +251,6 @@ def test_initial_curve_and_optimize_are_the_run(blob, reading, method):
     assert run.fit.method == fit.method == (method or reading.method)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("words", "arguments"),
-    [
-        ([], {}),
-        (
-            ["--literal", "--reading", "max_evaluations=300"],
-            {"reading": replace(LITERAL, max_evaluations=300)},
-        ),
-        (
-            ["--reading", "window=7", "--reading", "start=cpda-halved", "--method", "sdm"],
-            {"reading": replace(SENSIBLE, window=7, start="cpda-halved"), "method": "sdm"},
-        ),
-        (
-            ["--control-points", "41", "--degree", "5", "--arc-length", "4"],
-            {"n_control_points": 41, "degree": 5, "arc_length": 4.0},
-        ),
-    ],
-)
-def test_the_command_is_the_run(blob, words, arguments, tmp_path):
-    pytest.importorskip("matplotlib")
-    source = tmp_path / "blob.csv"
-    write(source, blob)
-    contour = read(source, closed=True).longest
-    argument = [] if "arc_length" in arguments else ["--length", "4"]
-    folder = tmp_path / "report"
-    command = ["paper", str(source), "--closed", "-o", str(folder), *argument, *words]
-    assert CliRunner().invoke(app, command).exit_code == 0
-    run = run_paper(contour, None if "arc_length" in arguments else 4, **arguments)
-    table = dict(row[:2] for row in csv.reader(io.StringIO((folder / "table.csv").read_text())))
-    assert table["method"] == run.fit.method
-    assert int(table["control points"]) == run.fit.n_control_points
-    assert table["final error E"] == f"{run.final_error:.6g}"
-    assert table["two-sided distance"] == f"{run.fit.hausdorff_distance:.6g}"
-
-
 def test_a_literal_closed_curve_comes_back_to_where_it_began(blob):
     start = initial_curve(blob, LENGTH, reading=LITERAL)
     assert (start.control_points[[0, -1]] == blob.points[0]).all()
@@ -409,99 +270,7 @@ def test_weights_of_a_literal_start_count_the_first_point_twice(blob):
     assert fit.history[0].cost == pytest.approx(cost, rel=1e-12)
 
 
-# Readings by words
-
-
-def test_every_field_can_be_set_by_a_word():
-    words = {
-        "signed": ("no", False),
-        "window": ("7", 7),
-        "prominence": ("none", None),
-        "spacing": ("3", 3),
-        "start": ("every-nth", "every-nth"),
-        "offset": ("none", "none"),
-        "normals": ("neighbours", "neighbours"),
-        "parametrization": ("chord", "chord"),
-        "clamped": ("TRUE", True),
-        "closing_point": ("0", False),
-        "resampled": ("false", False),
-        "method": ("oss", "oss"),
-        "start_diagonal": ("identity", "identity"),
-        "wolfe": ("weak", "weak"),
-        "ends": ("fitted", "fitted"),
-        "stray_weight": ("0.5", 0.5),
-        "relative_decrease": ("1e-3", 1e-3),
-        "max_evaluations": ("12", 12),
-    }
-    assert set(words) == {field.name for field in fields(SENSIBLE)}
-    changed = SENSIBLE.changed(f"{name}={word}" for name, (word, _) in words.items())
-    assert {name: getattr(changed, name) for name in words} == {
-        name: value for name, (_, value) in words.items()
-    }
-
-
-@pytest.mark.parametrize(
-    ("word", "sentence"),
-    [
-        ("windows=7", r"reading must be set by FIELD=VALUE with a field of signed, window, .*"),
-        ("window", r"FIELD=VALUE"),
-        ("window=seven", r"window must be int or None, got 'seven'"),
-        ("clamped=perhaps", r"clamped must be true or false, got 'perhaps'"),
-        ("window=4", r"window must be an odd number"),
-        ("start=all", r"start must be one of balanced, .*uniform, got 'all'"),
-        ("method=newton", r"method must be one of levenberg-marquardt, .*got 'newton'"),
-        ("stray_weight=-1", r"stray_weight must be 0 or a positive number"),
-        ("max_evaluations=0", r"max_evaluations|max_iterations"),
-    ],
-)
-def test_words_that_are_no_reading(word, sentence):
-    with pytest.raises(InvalidInputError, match=sentence) as raised:
-        SENSIBLE.changed([word])
-    assert "\n" not in str(raised.value)
-
-
 @pytest.mark.parametrize("n", [2, 98, 10.5, "ten"])
 def test_numbers_of_control_points_that_no_curve_has(blob, n):
     with pytest.raises(InvalidInputError, match="n_control_points must be from degree"):
         initial_curve(blob, LENGTH, n_control_points=n)
-
-
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        (["--reading", "windows=7"], "reading must be set by FIELD=VALUE with a field of signed, "),
-        (["--method", "newton"], "method must be one of levenberg-marquardt, "),
-        (["--control-points", "2"], "n_control_points must be from degree + 1 = 4 to"),
-        (["--length", "4", "--arc-length", "2"], "length and arc_length say the same thing"),
-        (["--degree", "12"], "degree must be an integer from 1 to 9"),
-    ],
-)
-def test_the_command_refuses_with_one_sentence(blob, words, sentence, tmp_path):
-    pytest.importorskip("matplotlib")
-    source = tmp_path / "blob.csv"
-    write(source, blob)
-    with pytest.raises(ShapesplineError) as raised:
-        app(
-            ["paper", str(source), "--closed", "-o", str(tmp_path / "out"), *words],
-            standalone_mode=False,
-        )
-    assert sentence in str(raised.value)
-    assert "\n" not in str(raised.value)
-    assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.slow
-def test_the_command_runs_on_every_outline(blob, tmp_path):
-    pytest.importorskip("matplotlib")
-    source = tmp_path / "two.json"
-    hole = Contour(0.3 * blob.points, closed=True)
-    fits = [
-        optimize(c, initial_curve(c, LENGTH), limits=Limits(max_iterations=1)) for c in (blob, hole)
-    ]
-    write(source, Drawing(fits, [-1, 0]))
-    folder = tmp_path / "report"
-    app(["paper", str(source), "-L", "4", "-o", str(folder)], standalone_mode=False)
-    for index, contour in enumerate((blob, hole), 1):
-        [fit] = read(folder / f"outline-{index}" / "final-curve.json").fits
-        expected = run_paper(contour, LENGTH).fit
-        assert fit.control_points.tobytes() == expected.control_points.tobytes()
