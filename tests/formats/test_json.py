@@ -14,7 +14,9 @@ from tests.support.make_fit import blob, fit_of, nested, wave
 
 from shapespline.errors import DroppedPointsWarning, FormatError
 from shapespline.formats import json as subject
+from shapespline.geometry import exact_fit
 from shapespline.monitor import Iteration
+from shapespline.values import Arc, Piece
 from shapespline.values.contour import Contour
 from shapespline.values.drawing import Drawing
 from shapespline.values.fit import Fit, Status
@@ -204,7 +206,7 @@ def changed(document, path, value):
 FIT = ("fits", 0)
 WRONG = [
     (("format",), "potrace", "no shapespline drawing"),
-    (("version",), 2, "version 2 is unknown, this program reads version 1"),
+    (("version",), 3, "version 3 is unknown, this program reads versions 1 and 2"),
     (("version",), True, "version must be an integer, found true"),
     (("version",), KeyError, "version must be an integer, found null"),
     (("frame",), KeyError, "lacks the field 'frame'"),
@@ -308,3 +310,21 @@ def test_the_unit_and_the_accuracy_of_the_data_come_along(round_trip, read_text)
         read_text(text.replace('"in"', '"furlong"'))
     with pytest.raises(FormatError, match="accuracy must be a length"):
         read_text(text.replace("0.125", "-1.0"))
+
+
+def test_arcs_come_back_and_raise_the_version(round_trip, read_text):
+    arc = Piece.of_arc(Arc((0.1, 0.2), 1.0, 0.3, 1.7), 0.01)
+    circle = Piece.of_arc(Arc((5.0, 5.0), 2.0, 0.0, -2 * np.pi))
+    drawing = Drawing([exact_fit([arc]), exact_fit([circle])])
+    assert round_trip(drawing) == drawing
+    text = subject.encode(drawing).decode()
+    assert '"version": 2' in text
+    for good, bad, message in (
+        ('"radius": 2.0', '"radius": -2.0', "radius of an arc must be positive, got -2.0"),
+        ('"radius": 2.0', '"radius": 2.5', "must be a cubic beside its arc"),
+        ('"sweep": 1.7', '"sweep": 1.8', "must be a cubic beside its arc"),
+        ('"kind": "arc"', '"kind": "spline"', "must have the field 'arc' if its kind is 'arc'"),
+    ):
+        assert good in text
+        with pytest.raises(FormatError, match=message):
+            read_text(text.replace(good, bad))

@@ -159,8 +159,12 @@ class NormalizedContour(NamedTuple):
 
     def restored(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
         """Pieces in the unit and direction of the data."""
+        linear = np.eye(2) / self.scale
         pieces = tuple(
-            piece._replace(control_points=piece.control_points / self.scale + self.middle)
+            piece._replace(
+                control_points=piece.control_points / self.scale + self.middle,
+                arc=None if piece.arc is None else piece.arc.moved(linear, self.middle),
+            )
             for piece in pieces
         )
         return backwards(pieces) if self.reversed else pieces

@@ -104,6 +104,7 @@ def verify(candidate: Candidate, request: Request) -> Verified:
         spline = joined(candidate.pieces, request.style.degree)
     found = candidate.distances
     found = two_sided_distance(spline, request.contour) if found is None else found
+    found = found.beside(candidate.pieces)
     fit = verified_fit(
         request.contour,
         spline,

@@ -63,9 +63,7 @@ def _met(chain: list[Piece], run: Sequence[Piece]) -> list[Piece]:
     """A run that begins where the chain before it ends, exactly."""
     if not chain:
         return list(run)
-    points = run[0].control_points.copy()
-    points[0] = chain[-1].control_points[-1]
-    return [run[0]._replace(control_points=points), *run[1:]]
+    return [run[0].meeting(begin=chain[-1].control_points[-1]), *run[1:]]
 
 
 def _partners(runs: Sequence[Sequence[Piece]]) -> IntArray:

@@ -1,9 +1,9 @@
 """JSON: our own format, versioned and lossless; every field of every fit, bit for bit.
 
-Version 1 is one object::
+It is one object::
 
     format   "shapespline"
-    version  1
+    version  1, or 2 if there are arcs
     unit     of all lengths, such as "mm", or null
     frame    {x, y, width, height} or null
     parents  for each fit the index of the one directly around it, -1 for none
@@ -17,7 +17,9 @@ Version 1 is one object::
         status       {name, value}
         history      columns, one value for each iteration; null where it was not computed
         method       name of the solver
-        sections     {kind, degree, knots, control_points} end to end; none for a single spline
+        sections     {kind, degree, knots, control_points} end to end; none for a single spline;
+                     of an arc also arc {centre, radius, start_angle, sweep}, whose twin the
+                     others are
         outliers     indices of the points left out
         uncertainty  null, or covariance of the control points, chi_squared, degrees_of_freedom
 
@@ -33,6 +35,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from shapespline.errors import FormatError, InvalidInputError
+from shapespline.formats.json_pieces import checked_pieces, piece_document
 from shapespline.formats.json_uncertainty import checked_uncertainty, uncertainty_document
 from shapespline.formats.json_values import (
     checked_boolean,
@@ -53,7 +56,6 @@ from shapespline.values import (
     Contour,
     Drawing,
     Fit,
-    Piece,
     Status,
     ViewBox,
 )
@@ -65,7 +67,7 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
 
 T = TypeVar("T")
-FORMAT, VERSION = "shapespline", 1
+FORMAT, VERSION, WITH_ARCS = "shapespline", 1, 2
 LINE_LENGTH = 100
 DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
@@ -73,7 +75,6 @@ FIT_FIELDS += ("status", "history", "method", "sections", "outliers", "uncertain
 DRAWING_FIELDS = ("format", "version", "unit", "frame", "parents", "fits")
 CONTOUR_FIELDS: tuple[str, ...] = ("closed", "points", "source", "accuracy")
 COUNTS = ("iteration", "evaluations")  # the columns of the history that hold integers
-KINDS = ("line", "bezier", "spline")
 KNOWN = (Status.KEPT, Status.EXCEEDED, Status.BUDGET, Status.CANCELLED)
 STATUSES = {status.name: status for status in KNOWN}
 
@@ -110,7 +111,7 @@ def encode(drawing: Drawing) -> bytes:
     frame = drawing.frame
     document: dict[str, Any] = {
         "format": FORMAT,
-        "version": VERSION,
+        "version": WITH_ARCS if _has_arcs(drawing) else VERSION,
         "unit": drawing.unit,
         "frame": None if frame is None else _numbers_of(frame._asdict(), "frame"),
         "parents": list(drawing.parents),
@@ -181,18 +182,14 @@ def _fit_document(fit: Fit) -> dict[str, Any]:
             for name in Iteration._fields
         },
         "method": fit.method,
-        "sections": [
-            {
-                "kind": piece.kind,
-                "degree": piece.degree,
-                "knots": piece.knots.tolist(),
-                "control_points": piece.control_points.tolist(),
-            }
-            for piece in fit.sections
-        ],
+        "sections": [piece_document(piece) for piece in fit.sections],
         "outliers": np.asarray(fit.outliers).tolist(),
         "uncertainty": uncertainty_document(fit.uncertainty),
     }
+
+
+def _has_arcs(drawing: Drawing) -> bool:
+    return any(piece.arc for fit in drawing for piece in fit.sections)
 
 
 def _finite(array: FloatArray, name: str) -> list[float]:
@@ -263,8 +260,10 @@ def _drawing(document: object) -> Drawing:
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise FormatError('no shapespline drawing: it does not begin with "format": "shapespline"')
     version = checked_integer(document.get("version"), "version")
-    if version != VERSION:
-        raise FormatError(f"version {version} is unknown, this program reads version {VERSION}")
+    if version not in (VERSION, WITH_ARCS):
+        raise FormatError(
+            f"version {version} is unknown, this program reads versions {VERSION} and {WITH_ARCS}"
+        )
     known = DRAWING_FIELDS + (("colors",) if "colors" in document else ())
     fields = checked_object(document, "the drawing", known)
     items = checked_list(fields["fits"], "fits")
@@ -310,7 +309,7 @@ def _fit(value: object, where: str) -> Fit:
         rms_distance=distances["rms_distance"],
         hausdorff_distance=distances["hausdorff_distance"],
         tolerance=distances["tolerance"],
-        sections=_sections(fields["sections"], f"{where}.sections"),
+        sections=checked_pieces(fields["sections"], f"{where}.sections"),
         status=_status(fields["status"], f"{where}.status"),
         history=_history(fields["history"], f"{where}.history"),
         method=checked_string(fields["method"], f"{where}.method"),
@@ -335,23 +334,6 @@ def _spline(value: object, where: str) -> BSplineCurve:
         checked_integer(fields["degree"], f"{where}.degree"),
         checked_boolean(fields["periodic"], f"{where}.periodic"),
     )
-
-
-def _sections(value: object, where: str) -> tuple[Piece, ...]:
-    pieces = []
-    for index, item in enumerate(checked_list(value, where)):
-        place = f"{where}[{index}]"
-        fields = checked_object(item, place, Piece._fields)
-        kind = checked_string(fields["kind"], f"{place}.kind")
-        if kind not in KINDS:
-            raise FormatError(f"{place}.kind must be one of {', '.join(KINDS)}, found {kind!r}")
-        degree = checked_integer(fields["degree"], f"{place}.degree")
-        knots = checked_numbers(fields["knots"], f"{place}.knots")
-        points = checked_points(fields["control_points"], f"{place}.control_points")
-        if len(knots) != len(points) + degree + 1:
-            raise FormatError(f"{place} must have degree + 1 knots more than control points")
-        pieces.append(Piece(kind, degree, knots, points))
-    return tuple(pieces)
 
 
 def _contour(value: object, where: str) -> Contour:

@@ -36,9 +36,7 @@ def closed_up(pieces: Sequence[Piece]) -> list[Piece]:
         kept.pop()
     gap = kept[-1].control_points[-1] - kept[0].control_points[0]
     if (len(kept) > 1 or kept[0].degree > 1) and np.hypot(*gap) <= near:
-        last = kept[-1].control_points.copy()
-        last[-1] = kept[0].control_points[0]
-        kept[-1] = kept[-1]._replace(control_points=last)
+        kept[-1] = kept[-1].meeting(end=kept[0].control_points[0])
     return kept
 
 

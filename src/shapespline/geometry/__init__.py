@@ -11,7 +11,7 @@ from shapespline.geometry.distances import (
     rounding,
     two_sided_distance,
 )
-from shapespline.geometry.exact import Outlines, exact_drawing
+from shapespline.geometry.exact import Outlines, exact_drawing, exact_fit
 from shapespline.geometry.flattening import chords, sampled
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
 from shapespline.geometry.joining import elevated, joined, turn_between
@@ -54,6 +54,7 @@ __all__ = [
     "enclosed_area",
     "evenly_spaced",
     "exact_drawing",
+    "exact_fit",
     "greville_matched",
     "in_unit",
     "joined",

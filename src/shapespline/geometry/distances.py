@@ -13,8 +13,10 @@ from shapespline import _kernels
 from shapespline.geometry.nearest import Nearest, nearest
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.typing import FloatArray
-    from shapespline.values import BSplineCurve, Contour
+    from shapespline.values import BSplineCurve, Contour, Piece
 
 # The bound of the distance from curve to data is tight to this part of itself ...
 RELATIVE_GAP = 1e-3
@@ -39,6 +41,15 @@ class Distances(NamedTuple):
     def hausdorff_distance(self) -> float:
         """Upper bound of the larger of both directions."""
         return max(self.max_distance, self.reverse_distance)
+
+    def beside(self, pieces: Sequence[Piece]) -> Distances:
+        """Bounds for the pieces that a curve was made of, too: arcs lie beside their twins."""
+        by = max((piece.twin_error for piece in pieces), default=0.0)
+        if by == 0.0:
+            return self
+        return self._replace(
+            max_distance=self.max_distance + by, reverse_distance=self.reverse_distance + by
+        )
 
 
 def two_sided_distance(curve: BSplineCurve, contour: Contour) -> Distances:

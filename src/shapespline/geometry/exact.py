@@ -101,7 +101,7 @@ def exact_fit(pieces: Sequence[Piece], *, sampling: float | None = None) -> Fit:
         raise DegenerateContourError("the outline is a single point: there is no curve")
     spline = joined(pieces)
     contour, parameters = sampled(spline, sampling)
-    distances = distances_at(spline, contour, parameters)
+    distances = distances_at(spline, contour, parameters).beside(pieces)
     bound = distances.hausdorff_distance
     return Fit(
         spline=spline,
@@ -114,5 +114,5 @@ def exact_fit(pieces: Sequence[Piece], *, sampling: float | None = None) -> Fit:
         status=Status.KEPT.saying(f"the curve as it was read, sampled to {bound:.3g}"),
         history=(),
         method="read",
-        sections=pieces if len(pieces) > 1 else (),
+        sections=pieces if len(pieces) > 1 or pieces[0].arc is not None else (),
     )

@@ -7,6 +7,7 @@ Boxes and the inside come from the monotone parts of the pieces.
 
 from __future__ import annotations
 
+from math import ceil, floor, pi, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ import numpy as np
 from shapespline.errors import InvalidInputError
 from shapespline.geometry.monotone import bezier_at, critical_parameters, monotone_parts
 from shapespline.validation import float_array, is_number, whole_number
+from shapespline.values import Arc, BSplineCurve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from shapespline.typing import ArrayLike, FloatArray
-    from shapespline.values import BSplineCurve
+    from shapespline.values import Piece
 
 # Nodes of a length on a part of a span, and parts of a span in the table of arc lengths.
 NODES, PARTS = np.polynomial.legendre.leggauss(16), 4
@@ -42,11 +44,18 @@ class Box(NamedTuple):
     y_max: float
 
 
-def enclosed_area(curve: BSplineCurve) -> float:
+def enclosed_area(curve: BSplineCurve, pieces: Sequence[Piece] = ()) -> float:
     """Signed area of a closed curve, positive if it runs counter-clockwise.
 
     Exact up to rounding (Green's formula about the first point); what a curve that crosses itself
     runs around twice counts twice.
+
+    Parameters
+    ----------
+    curve : BSplineCurve
+    pieces : sequence of Piece, optional
+        What it was made of: between an arc and its chord lies the segment of the circle, not that
+        of the arc's twin.
 
     Examples
     --------
@@ -55,17 +64,24 @@ def enclosed_area(curve: BSplineCurve) -> float:
     >>> enclosed_area(BSplineCurve([0, 0, 0.25, 0.5, 0.75, 1, 1], square, degree=1))
     4.0
     """
-    pieces = curve.beziers().points
-    pieces = pieces - pieces[0, 0]
+    beziers = curve.beziers().points
+    beziers = beziers - beziers[0, 0]
     nodes, weights = np.polynomial.legendre.leggauss(curve.degree)
-    u = np.broadcast_to(0.5 * (nodes + 1), (len(pieces), len(nodes)))
-    point = bezier_at(pieces, u)
-    velocity = bezier_at(curve.degree * np.diff(pieces, axis=1), u)
+    u = np.broadcast_to(0.5 * (nodes + 1), (len(beziers), len(nodes)))
+    point = bezier_at(beziers, u)
+    velocity = bezier_at(curve.degree * np.diff(beziers, axis=1), u)
     swept = point[..., 0] * velocity[..., 1] - point[..., 1] * velocity[..., 0]
-    return 0.25 * float(np.sum(swept @ weights))
+    beside = 0.0
+    for piece in pieces:
+        if piece.arc is not None:
+            arc = piece.arc
+            twin = BSplineCurve(piece.knots, piece.control_points, piece.degree)
+            segment = 0.5 * arc.radius**2 * (arc.sweep - sin(arc.sweep) * (not arc.is_circle))
+            beside += segment - enclosed_area(twin)
+    return 0.25 * float(np.sum(swept @ weights)) + beside
 
 
-def bounds(curves: Sequence[BSplineCurve]) -> Box:
+def bounds(curves: Sequence[BSplineCurve | Arc]) -> Box:
     """The box of some curves, from the zeros of their derivatives.
 
     Examples
@@ -76,6 +92,9 @@ def bounds(curves: Sequence[BSplineCurve]) -> Box:
     """
     sides = []
     for curve in curves:
+        if isinstance(curve, Arc):
+            sides.append(_ends_of_box(curve))
+            continue
         pieces = curve.beziers().points
         ends = np.array([pieces[:, [0, -1]].min(axis=(0, 1)), pieces[:, [0, -1]].max(axis=(0, 1))])
         for axis in (0, 1):
@@ -86,6 +105,15 @@ def bounds(curves: Sequence[BSplineCurve]) -> Box:
         sides.append(ends)
     low, high = np.min(sides, axis=0)[0], np.max(sides, axis=0)[1]
     return Box(*low.tolist(), *high.tolist())
+
+
+def _ends_of_box(arc: Arc) -> FloatArray:
+    """The corners of the box of an arc, shape (2, 2): of its ends, and where it meets an axis."""
+    low, high = sorted((arc.start_angle, arc.end_angle))
+    quarters = np.arange(ceil(low / (0.5 * pi)), floor(high / (0.5 * pi)) + 1) % 4
+    axes = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])[quarters.astype(int)]
+    points = np.concatenate([[arc.begin, arc.end], np.array(arc.centre) + arc.radius * axes])
+    return np.array([points.min(axis=0), points.max(axis=0)])
 
 
 def contains(curves: Sequence[BSplineCurve], points: ArrayLike) -> NDArray[np.bool_]:

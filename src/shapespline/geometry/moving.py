@@ -20,16 +20,25 @@ from shapespline.geometry.nearest import nondecreasing
 from shapespline.geometry.reversal import backwards, reversed_curve
 from shapespline.geometry.splitting import cut_pieces, placed_pieces
 from shapespline.validation import float_array
-from shapespline.values import BSplineCurve, Contour, Drawing, Fit, Piece, Status, ViewBox
+from shapespline.values import (
+    SAME_FACTOR,
+    BSplineCurve,
+    Contour,
+    Drawing,
+    Fit,
+    Piece,
+    Status,
+    ViewBox,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from shapespline.typing import ArrayLike, FloatArray
 
-# A map whose singular values differ by less than this part is a similarity; of one whose smaller
-# one is below the other part of the larger, nothing but a line is left.
-SAME_FACTOR, FLAT = 1e-12, 1e-9
+# Of a map whose smaller singular value is below this part of the larger one nothing but a line is
+# left.
+FLAT = 1e-9
 
 
 class AffineMap(NamedTuple):
@@ -107,9 +116,7 @@ def transformed_fit(fit: Fit, matrix: ArrayLike) -> Fit:
         hausdorff_distance=factor * fit.hausdorff_distance,
         tolerance=factor * fit.tolerance,
         history=(),
-        sections=tuple(
-            piece._replace(control_points=affine(piece.control_points)) for piece in fit.sections
-        ),
+        sections=tuple(piece.moved(affine.linear, affine.shift) for piece in fit.sections),
     )  # fmt: skip
     # Of more points than a fit holds only the bounds are known.
     if not affine.is_similarity and type(fit) is Fit:
@@ -184,7 +191,7 @@ def _part(fit: Fit, pieces: Sequence[Piece], points: FloatArray) -> Fit:
     """A part of a fit, measured against its part of the data."""
     spline = joined(pieces, fit.degree)
     contour = Contour.silently(points, False, accuracy=fit.contour.accuracy)
-    found = two_sided_distance(spline, contour)
+    found = two_sided_distance(spline, contour).beside(pieces)
     bound = found.hausdorff_distance
     kept = bound <= fit.tolerance
     status = Status.KEPT if kept else Status.EXCEEDED

@@ -28,6 +28,7 @@ def backwards(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
         piece._replace(
             knots=1.0 - piece.knots[::-1],
             control_points=np.ascontiguousarray(piece.control_points[::-1]),
+            arc=None if piece.arc is None else piece.arc.reversed(),
         )
         for piece in reversed(pieces)
     )

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from shapespline.errors import InvalidInputError
 from shapespline.geometry.exact import Outlines
 from shapespline.units import PIXEL, checked_unit, conversion
@@ -97,7 +99,7 @@ def _contour(contour: Contour, factor: float) -> Contour:
 
 
 def _pieces(pieces: Sequence[Piece], factor: float) -> tuple[Piece, ...]:
-    return tuple(piece._replace(control_points=factor * piece.control_points) for piece in pieces)
+    return tuple(piece.moved(factor * np.eye(2), np.zeros(2)) for piece in pieces)
 
 
 def _fit(fit: Fit, factor: float) -> Fit:

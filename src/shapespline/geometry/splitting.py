@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline.geometry.joining import blossom
-from shapespline.values import Piece
+from shapespline.values import FULL_TURN, BSplineCurve, Piece
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from shapespline.values import BSplineCurve
+    from shapespline.values import Arc
 
 
 class PlacedPiece(NamedTuple):
@@ -65,8 +66,9 @@ def _between(item: PlacedPiece, begin: float, end: float) -> Piece:
 def part_of(piece: Piece, begin: float, end: float) -> Piece:
     """A piece between two of its parameters, over [0, 1].
 
-    Its inner knots stay; control point i is the blossom at the knots i + 1 to i + degree of any
-    polynomial in its support (Ramshaw 1989).
+    Of an arc that is an arc between the angles of the twin there. Of other kinds its inner knots
+    stay; control point i is the blossom at the knots i + 1 to i + degree of any polynomial in its
+    support (Ramshaw 1989).
 
     Examples
     --------
@@ -74,6 +76,8 @@ def part_of(piece: Piece, begin: float, end: float) -> Piece:
     >>> part_of(line, 0.25, 0.5).control_points.tolist()
     [[1.0, 0.0], [2.0, 0.0]]
     """
+    if piece.arc is not None:
+        return _arc_between(piece, piece.arc, begin, end)
     p = piece.degree
     inner = piece.knots[(piece.knots > begin) & (piece.knots < end)]
     knots = np.concatenate([np.full(p + 1, begin), inner, np.full(p + 1, end)])
@@ -85,3 +89,25 @@ def part_of(piece: Piece, begin: float, end: float) -> Piece:
         points[i] = blossom(piece, span, tuple(knots[i + 1 : i + p + 1]))
     kind = "line" if p == 1 and not len(inner) else "spline" if len(inner) else "bezier"
     return Piece(kind, p, (knots - begin) / (end - begin), points)
+
+
+def _arc_between(piece: Piece, arc: Arc, begin: float, end: float) -> Piece:
+    """The part of an arc whose twin is no farther from it."""
+    cuts = [begin, end]
+    curve = BSplineCurve(piece.knots, piece.control_points, piece.degree)
+    from_centre = curve(cuts) - arc.centre
+    angles = np.arctan2(from_centre[:, 1], from_centre[:, 0])
+    # A Bezier's parameter runs almost as the angle does: that tells the turn.
+    near = arc.start_angle + arc.sweep * np.array(cuts)
+    angles += FULL_TURN * np.round((near - angles) / FULL_TURN)
+    first, last = ((angles - arc.start_angle) / arc.sweep).tolist()
+    first, last = (0.0 if begin == 0 else first), (1.0 if end == 1 else last)
+    part = arc.part(first, last)
+    knots, points = part.twin(max(1, ceil((last - first) * piece.n_beziers - 1e-9)))
+    ends = [
+        given if cut in (0, 1) else arc.at(share)
+        for given, cut, share in zip(
+            piece.control_points[[0, -1]], (begin, end), (first, last), strict=True
+        )
+    ]
+    return Piece("arc", 3, knots, points, part).meeting(*ends)

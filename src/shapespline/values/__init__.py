@@ -1,5 +1,6 @@
 """Values: immutable inputs and results. They know nothing but themselves."""
 
+from shapespline.values.arc import FULL_TURN, Arc
 from shapespline.values.contour import Contour, checked_contour
 from shapespline.values.curve import BSplineCurve, clamped_ends, with_knot
 from shapespline.values.drawing import Drawing
@@ -11,7 +12,7 @@ from shapespline.values.knots import (
     greville_abscissae,
     periodic_knots,
 )
-from shapespline.values.piece import CORNER_TURN, EXACT_TURN, SMOOTH_TURN, Piece
+from shapespline.values.piece import CORNER_TURN, EXACT_TURN, SAME_FACTOR, SMOOTH_TURN, Piece
 from shapespline.values.shape import Shape, checked_parents, nesting_depth
 from shapespline.values.snapshot import Snapshot
 from shapespline.values.uncertainty import Band, Uncertainty
@@ -20,7 +21,10 @@ from shapespline.values.view_box import ViewBox
 __all__ = [
     "CORNER_TURN",
     "EXACT_TURN",
+    "FULL_TURN",
+    "SAME_FACTOR",
     "SMOOTH_TURN",
+    "Arc",
     "BSplineCurve",
     "Band",
     "Contour",

@@ -121,7 +121,7 @@ class Drawing(ByValue, Shown):
         """The box (x_min, y_min, x_max, y_max) of all curves, data units."""
         from shapespline.geometry import bounds
 
-        return bounds([fit.spline for fit in self.fits])
+        return bounds([part for fit in self.fits for part in fit.exact_parts])
 
     def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
         """Which points lie in the silhouette: inside an odd number of closed curves.

@@ -15,10 +15,11 @@ if TYPE_CHECKING:
 
     from shapespline.monitor import Iteration
     from shapespline.typing import ArrayLike, FloatArray, IntArray
+    from shapespline.values.arc import Arc
     from shapespline.values.contour import Contour
-    from shapespline.values.curve import BSplineCurve
     from shapespline.values.snapshot import Snapshot
     from shapespline.values.uncertainty import Band, Uncertainty
+from shapespline.values.curve import BSplineCurve
 from shapespline.values.equality import ByValue
 from shapespline.values.fit_methods import FitMethods
 from shapespline.values.piece import CORNER_TURN, Piece
@@ -188,7 +189,7 @@ class Fit(ByValue, Shown, FitMethods):
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
-        """The curve end to end as lines, Beziers or splines."""
+        """The curve end to end as lines, arcs, Beziers or splines."""
         if self.sections:
             return self.sections
         spline = self.spline
@@ -204,15 +205,25 @@ class Fit(ByValue, Shown, FitMethods):
         )
 
     @property
+    def exact_parts(self) -> list[BSplineCurve | Arc]:
+        """The curve in as few parts as it takes to tell arcs from splines; one if it has none."""
+        if not any(piece.arc for piece in self.sections):
+            return [self.spline]
+        return [
+            piece.arc or BSplineCurve(piece.knots, piece.control_points, piece.degree)
+            for piece in self.sections
+        ]
+
+    @property
     def n_stored_points(self) -> int:
         """Distinct points that a file of the pieces stores.
 
-        A line counts 1, a quadratic 2, a cubic 3, a spline with k interior knots its degree + k;
-        an open curve one more.
+        A line counts 1, an arc or a whole circle 2, a quadratic 2, a cubic 3, a spline with k
+        interior knots its degree + k; an open curve one more.
         """
         if self.spline.periodic and not self.sections:
             return self.n_control_points
-        stored = sum(len(piece.control_points) - 1 for piece in self.pieces)
+        stored = sum(piece.n_stored for piece in self.pieces)
         return stored + int(not self.closed)
 
     @property

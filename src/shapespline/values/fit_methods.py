@@ -13,9 +13,11 @@ if TYPE_CHECKING:
 
     from shapespline.geometry import Box
     from shapespline.typing import ArrayLike, FloatArray
+    from shapespline.values.arc import Arc
     from shapespline.values.curve import BSplineCurve
     from shapespline.values.drawing import Drawing
     from shapespline.values.fit import Fit
+    from shapespline.values.piece import Piece
 
 
 class FitMethods:
@@ -23,17 +25,22 @@ class FitMethods:
 
     if TYPE_CHECKING:  # the fields that a fit has
         spline: BSplineCurve
+        sections: tuple[Piece, ...]
 
         @property
         def closed(self) -> bool:
             """Whether the curve ends where it begins."""
+
+        @property
+        def exact_parts(self) -> list[BSplineCurve | Arc]:
+            """The curve in as few parts as it takes to tell arcs from splines."""
 
     # Measures of the curve
 
     @property
     def length(self) -> float:
         """Arc length of the curve, data units; exact to rounding unless its speed nears zero."""
-        return self.spline.length()
+        return sum(part.length() for part in self.exact_parts)
 
     @property
     def area(self) -> float:
@@ -56,7 +63,7 @@ class FitMethods:
         from shapespline.geometry import enclosed_area
 
         self._check_closed("area")
-        return abs(enclosed_area(self.spline))
+        return abs(enclosed_area(self.spline, self.sections))
 
     @property
     def bounds(self) -> Box:
@@ -71,7 +78,7 @@ class FitMethods:
         """
         from shapespline.geometry import bounds
 
-        return bounds([self.spline])
+        return bounds(self.exact_parts)
 
     def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
         """Which points lie inside a closed curve, by the even-odd rule.
