@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline.values import BSplineCurve
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from shapespline.typing import FloatArray
-    from shapespline.values import Drawing, Fit
+    from shapespline.values import Drawing, Fit, Piece
 
 # Of the box diagonal: what a cubic may deviate from a piece of degree 4 or more.
 CUBIC_TOLERANCE = 1e-6
@@ -40,18 +42,36 @@ def groups(drawing: Drawing) -> list[list[int]]:
 
 def as_cubics(fit: Fit) -> FloatArray:
     """Cubic Beziers of a fit end to end, data coordinates, shape (s, 4, 2)."""
-    points = fit.spline.beziers().points
-    if fit.degree <= 3:
+    cubics = _cubics_of(fit.spline, CUBIC_TOLERANCE * fit.contour.box_diagonal)
+    if fit.closed:
+        cubics[-1, -1] = cubics[0, 0]  # knot insertion may miss it by a rounding
+    return cubics
+
+
+def cubics_and_arcs(fit: Fit) -> list[FloatArray | Piece]:
+    """The same with arcs as they are: cubics, shape (s, 4, 2), and arcs, in their order."""
+    if not any(piece.arc for piece in fit.sections):
+        return [as_cubics(fit)]
+    tolerance = CUBIC_TOLERANCE * fit.contour.box_diagonal
+    return [
+        piece
+        if piece.arc
+        else _cubics_of(BSplineCurve(piece.knots, piece.control_points, piece.degree), tolerance)
+        for piece in fit.sections
+    ]
+
+
+def _cubics_of(spline: BSplineCurve, tolerance: float) -> FloatArray:
+    points = spline.beziers().points
+    if spline.degree <= 3:
         cubics = points
         while cubics.shape[1] < 4:
             cubics = elevated(cubics)
     else:
         # Below the rounding of the coordinates no halving could reach the tolerance.
         rounding = 64 * EPS * float(np.abs(points).max())
-        tolerance = max(CUBIC_TOLERANCE * fit.contour.box_diagonal, rounding)
+        tolerance = max(tolerance, rounding)
         cubics = np.array([cubic for piece in points for cubic in _cubics(piece, tolerance)])
-    if fit.closed:
-        cubics[-1, -1] = cubics[0, 0]  # knot insertion may miss it by a rounding
     return cubics
 
 

@@ -15,6 +15,7 @@ from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import bezier, size_of
 from shapespline.formats.splines import spline_pieces
 from shapespline.geometry import Outlines
+from shapespline.values import Arc, Piece
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
 
     from shapespline.typing import FloatArray
-    from shapespline.values import Piece
 
 # Each kind has attributes of its own.
 Entity: TypeAlias = Any
@@ -42,8 +42,8 @@ FLAT = 1e-6
 def read(path: Path) -> Outlines:
     """Read the outlines in the model space of a DXF drawing.
 
-    LINE, LWPOLYLINE, POLYLINE and SPLINE are exact; ARC, CIRCLE, ELLIPSE and bulges become cubics
-    within a billionth of their size, as do splines with weights. Blocks are exploded, and entities
+    LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE and SPLINE are exact; ELLIPSE becomes cubics within a
+    billionth of its size, as do splines with weights. Blocks are exploded, and entities
     that meet end to end are joined. Layers that are off or frozen are left out; heights are, too.
 
     Parameters
@@ -219,14 +219,8 @@ def _bulging(begin: FloatArray, end: FloatArray, bulge: float) -> list[Piece]:
     """A line, or an arc whose included angle has four times the arc tangent of the bulge."""
     if bulge == 0.0 or (begin == end).all():
         return [bezier([begin, end])]
-    chord = end - begin
-    left = np.array([-chord[1], chord[0]])
-    centre = 0.5 * (begin + end) + (1 - bulge**2) / (4 * bulge) * left
-    first = begin - centre
-    second = np.array([-first[1], first[0]])
-    pieces = elliptical_arc(centre, first, second, 0.0, 4 * math.atan(bulge))
-    pieces[0].control_points[0], pieces[-1].control_points[-1] = begin, end
-    return pieces
+    arc = Arc.through(begin, end, 4 * math.atan(bulge))
+    return [Piece.of_arc(arc, begin=begin, end=end)]
 
 
 def _spline(entity: Entity, heights: list[float]) -> list[Piece]:

@@ -1,7 +1,9 @@
-"""DXF R2000 by ezdxf: splines and lines, or polylines with arcs for machines that read no splines.
+"""DXF by ezdxf: splines, arcs and lines, or polylines with arcs for machines without splines.
 
 Splines are what importers agree on: without weights, clamped, of degree 3, one entity from corner
-to corner, a smooth closed curve in its exact clamped form with the closed flag. Lines are lines.
+to corner, a smooth closed curve in its exact clamped form with the closed flag. Lines are lines and
+circles CIRCLE; an outline of lines and arcs is one LWPOLYLINE with bulges, an arc beside splines an
+ARC.
 """
 
 from __future__ import annotations
@@ -9,6 +11,7 @@ from __future__ import annotations
 import io
 from contextlib import contextmanager
 from itertools import pairwise
+from math import degrees, pi, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,17 +22,20 @@ from shapespline.geometry import arc_polyline, joined
 from shapespline.values import Piece
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from ezdxf.document import Drawing as Document
     from ezdxf.layouts import Modelspace
 
-    from shapespline.values import BSplineCurve, Drawing, Fit
+    from shapespline.formats.entities import Entity
+    from shapespline.values import Arc, BSplineCurve, Drawing, Fit
 
 # $INSUNITS; a drawing in another unit, or in pixels, is written without one.
 UNITS = {"in": 1, "ft": 2, "mi": 3, "mm": 4, "cm": 5, "m": 6, "km": 7, "mil": 9, "yd": 10,
          "um": 13, "dm": 14}  # fmt: skip
 DEGREE = 3
+# An arc that turns further keeps too few digits of its centre in a bulge.
+LARGEST_BULGE = 1.75 * pi
 # Flags of a SPLINE.
 CLOSED, PLANAR = 1, 8
 # Distance between a curve and its arcs, of the tolerance that the curve was fitted to, if no other
@@ -130,13 +136,49 @@ def _without_time_and_chance() -> Iterator[None]:
 
 
 def _add_splines(space: Modelspace, fit: Fit, degree: int) -> None:
-    """Lines and splines of one outline, end to end."""
-    for entity in entities(fit):
-        if entity.curve.degree == 1:
+    """Lines, arcs and splines of one outline, end to end."""
+    parts = entities(fit)
+    if _is_polyline(parts):
+        _add_polyline(space, parts, fit.closed)
+        return
+    for entity in parts:
+        if entity.arc is not None:
+            _add_arc(space, entity.arc)
+        elif entity.curve.degree == 1:
             for begin, end in pairwise(entity.curve.control_points):
                 space.add_line(begin, end)
         else:
             _add_spline(space, entity.curve, degree, closed=entity.closed)
+
+
+def _is_polyline(parts: Sequence[Entity]) -> bool:
+    """Whether an outline is lines and arcs, none of them so long that its chord tells little."""
+    arcs = [part.arc for part in parts if part.arc is not None]
+    return (
+        len(arcs) > 0
+        and len(parts) > 1
+        and all(part.arc is not None or part.curve.degree == 1 for part in parts)
+        and all(abs(arc.sweep) <= LARGEST_BULGE for arc in arcs)
+    )
+
+
+def _add_polyline(space: Modelspace, parts: Sequence[Entity], closed: bool) -> None:
+    rows = []
+    for part in parts:
+        bulge = 0.0 if part.arc is None else tan(0.25 * part.arc.sweep)
+        rows += [(x, y, bulge) for x, y in part.curve.control_points[: 1 if bulge else -1].tolist()]
+    if not closed:
+        rows.append((*parts[-1].curve.control_points[-1].tolist(), 0.0))
+    space.add_lwpolyline(rows, format="xyb", close=closed)
+
+
+def _add_arc(space: Modelspace, arc: Arc) -> None:
+    """DXF's arcs run anticlockwise, in degrees."""
+    if arc.is_circle:
+        space.add_circle(arc.centre, arc.radius)
+        return
+    begin, end = sorted((arc.start_angle, arc.end_angle))
+    space.add_arc(arc.centre, arc.radius, degrees(begin), degrees(end))
 
 
 def _add_spline(space: Modelspace, curve: BSplineCurve, degree: int, *, closed: bool) -> None:

@@ -1,4 +1,4 @@
-"""Arcs of ellipses as cubic Beziers."""
+"""Arcs of circles and ellipses as files hold them, made into pieces."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.values import Piece
+from shapespline.values import Arc, Piece
 
 if TYPE_CHECKING:
     from shapespline.typing import ArrayLike
@@ -16,13 +16,17 @@ if TYPE_CHECKING:
 # 4/27 sin^6(a/4) / cos^2(a/4) of the radius [1]_, a billionth of it. Ellipses are affine images of
 # circles: a billionth of the longer half axis (FMT-02).
 LARGEST_ANGLE = math.radians(10.0)
+# Half axes that are equal and perpendicular to this part of themselves are those of a circle.
+ROUND = 1e-9
 CUBIC_KNOTS = np.repeat([0.0, 1.0], 4)
 
 
 def elliptical_arc(
     centre: ArrayLike, first: ArrayLike, second: ArrayLike, begin: float, sweep: float
 ) -> list[Piece]:
-    """Cubic Beziers along c + cos(t) u + sin(t) v, t from ``begin`` to ``begin + sweep``.
+    """Pieces along c + cos(t) u + sin(t) v, t from ``begin`` to ``begin + sweep``.
+
+    Of a circle one arc, else cubic Beziers.
 
     Parameters
     ----------
@@ -34,7 +38,7 @@ def elliptical_arc(
     Notes
     -----
     End points and tangents are those of the arc; in between a cubic is within 1.1e-9 of the longer
-    half axis.
+    half axis. An arc of a circle is exact.
 
     References
     ----------
@@ -46,7 +50,17 @@ def elliptical_arc(
     >>> quarter = elliptical_arc((0, 0), (2, 0), (0, 1), 0.0, math.pi / 2)
     >>> len(quarter), quarter[0].control_points[0].tolist()
     (9, [2.0, 0.0])
+    >>> [piece.arc.radius for piece in elliptical_arc((0, 0), (2, 0), (0, -2), 0.0, math.pi)]
+    [2.0]
     """
+    (ux, uy), (vx, vy) = np.array([first, second], dtype=np.float64).tolist()
+    radius, turned = math.hypot(ux, uy), ux * vy - uy * vx
+    off = math.hypot(vx + math.copysign(1.0, turned) * uy, vy - math.copysign(1.0, turned) * ux)
+    if radius > 0 and off <= ROUND * radius:
+        sign = math.copysign(1.0, turned)
+        x, y = np.array(centre, dtype=np.float64).tolist()
+        arc = Arc((x, y), radius, math.atan2(uy, ux) + sign * begin, sign * sweep)
+        return [Piece.of_arc(arc)]
     # A rounding above a whole number of pieces does not ask for one more.
     count = max(1, math.ceil(abs(sweep) / LARGEST_ANGLE - 1e-9))
     t = begin + sweep / count * np.arange(count + 1)

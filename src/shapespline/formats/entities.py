@@ -1,8 +1,8 @@
-"""A fit as the lines and splines that a CAD program wants: one entity for each smooth run.
+"""A fit as the lines, arcs and splines that a CAD program wants: one entity for each smooth run.
 
-Straight pieces stay lines. What lies between two of them, or between two corners, is one clamped
-non-rational B-spline. A curve that is smooth all around is one clamped spline that says it is
-closed: importers read that, true periodic knots few of them.
+Straight pieces stay lines and arcs stay arcs. What lies between two of them, or between two
+corners, is one clamped non-rational B-spline. A curve that is smooth all around is one clamped
+spline that says it is closed: importers read that, true periodic knots few of them.
 """
 
 from __future__ import annotations
@@ -17,14 +17,18 @@ from shapespline.values import CORNER_TURN, BSplineCurve, Piece
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from shapespline.values import Fit
+    from shapespline.values import Arc, Fit
 
 
 class Entity(NamedTuple):
-    """A clamped curve over [0, 1], a line if its degree is 1; ``closed`` if smooth all around."""
+    """A clamped curve over [0, 1], a line if its degree is 1; ``closed`` if smooth all around.
+
+    Of an arc ``arc`` is the arc itself and the curve its twin.
+    """
 
     curve: BSplineCurve
     closed: bool
+    arc: Arc | None = None
 
     @property
     def is_line(self) -> bool:
@@ -59,7 +63,12 @@ def entities(fit: Fit) -> list[Entity]:
         runs[-1].append(piece)
         if ends:
             runs.append([])
-    return [Entity(_run(run), closed=smooth_seam) for run in runs[:-1]]
+    return [_entity(run, smooth_seam) for run in runs[:-1]]
+
+
+def _entity(run: Sequence[Piece], smooth_seam: bool) -> Entity:
+    arc = run[0].arc
+    return Entity(_run(run), smooth_seam or (arc is not None and arc.is_circle), arc)
 
 
 def _run(pieces: Sequence[Piece]) -> BSplineCurve:
@@ -69,13 +78,15 @@ def _run(pieces: Sequence[Piece]) -> BSplineCurve:
 
 
 def _breaks(before: Piece, after: Piece) -> bool:
-    """Whether a new entity begins between two pieces: at corners and beside lines."""
-    straight = before.degree == 1 or after.degree == 1
-    return straight or abs(turn_between(before, after)) > CORNER_TURN
+    """Whether a new entity begins between two pieces: at corners and beside lines and arcs."""
+    alone = any(piece.degree == 1 or piece.arc is not None for piece in (before, after))
+    return alone or abs(turn_between(before, after)) > CORNER_TURN
 
 
 def _smooth_parts(piece: Piece) -> list[Piece]:
     """A clamped piece cut at its inner knots of full multiplicity, where it may have a corner."""
+    if piece.arc is not None:
+        return [piece]
     p = piece.degree
     inner, counts = np.unique(piece.knots[p + 1 : -p - 1], return_counts=True)
     at = inner[counts >= p]

@@ -1,4 +1,4 @@
-"""IGES: B-splines as entities 126, lines as 110, joined by composite curves 102."""
+"""IGES: B-splines as entities 126, arcs as 100, lines as 110, joined by composite curves 102."""
 
 from __future__ import annotations
 

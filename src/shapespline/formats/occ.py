@@ -9,6 +9,7 @@ import contextlib
 import io
 import os
 import sys
+from math import atan2, cos, sin
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from shapespline.formats.chains import chained
 from shapespline.formats.cubics import groups
 from shapespline.formats.entities import entities
 from shapespline.geometry import Outlines
-from shapespline.values import Piece
+from shapespline.values import Arc, Piece
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from shapespline.values import Drawing, Fit
 
 # Of the largest coordinate: what counts as the plane z = 0, and how near the cubics come that stand
-# for arcs and other rational curves.
+# for ellipses and other rational curves.
 FLAT, CONVERTED = 1e-9, 1e-10
 
 
@@ -98,6 +99,9 @@ def _wire(fit: Fit, scale: float) -> Any:
     for part, first, last in zip(parts, starts, [*starts[1:], end], strict=True):
         if part.is_line:
             edge = BRepBuilderAPI_MakeEdge(first, last)
+        elif part.arc is not None:
+            circle, turn = _circle(part.arc, scale), abs(part.arc.sweep)
+            edge = BRepBuilderAPI_MakeEdge(circle, first, last, 0.0, turn)
         else:
             edge = BRepBuilderAPI_MakeEdge(_geometry(part, scale), first, last, 0.0, 1.0)
         if not edge.IsDone():
@@ -118,6 +122,16 @@ def _point(point: Any, scale: float) -> Any:
     from OCP.gp import gp_Pnt
 
     return gp_Pnt(float(scale * point[0]), float(scale * point[1]), 0.0)
+
+
+def _circle(arc: Arc, scale: float) -> Any:
+    """The circle of an arc, its parameter an angle from the beginning of the arc."""
+    from OCP.Geom import Geom_Circle
+    from OCP.gp import gp_Ax2, gp_Dir
+
+    up = gp_Dir(0.0, 0.0, 1.0 if arc.sweep > 0 else -1.0)
+    towards = gp_Dir(cos(arc.start_angle), sin(arc.start_angle), 0.0)
+    return Geom_Circle(gp_Ax2(_point(arc.centre, scale), up, towards), scale * arc.radius)
 
 
 def _geometry(part: Entity, scale: float) -> Any:
@@ -173,8 +187,21 @@ def _pieces(edge: Any) -> list[Piece]:
     if adaptor.GetType() == GeomAbs_CurveType.GeomAbs_Line:
         ends = np.array([_xyz(adaptor.Value(at)) for at in (begin, end)])
         return [Piece("line", 1, np.array([0.0, 0, 1, 1]), _flat(ends))]
+    if adaptor.GetType() == GeomAbs_CurveType.GeomAbs_Circle:
+        return [_arc_piece(adaptor.Circle(), begin, end)]
     curve = adaptor.Curve().Curve().Transformed(adaptor.Trsf())
     return [_spline_piece(Geom_TrimmedCurve(curve, begin, end))]
+
+
+def _arc_piece(circle: Any, begin: float, end: float) -> Piece:
+    """An arc between two angles of a circle, which begins at its own x axis."""
+    position = circle.Position()
+    axis, across = _xyz(position.XDirection()), _xyz(position.YDirection())
+    _flat(np.array([axis, across, (0.0, 0.0, 0.0)]))
+    sign = float(np.sign(axis[0] * across[1] - axis[1] * across[0]))
+    start = atan2(axis[1], axis[0]) + sign * begin
+    x, y, _ = _xyz(circle.Location())
+    return Piece.of_arc(Arc((x, y), circle.Radius(), start, sign * (end - begin)))
 
 
 def _spline_piece(curve: Any) -> Piece:

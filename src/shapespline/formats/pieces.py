@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.values import Piece
+from shapespline.values import FULL_TURN, Arc, Piece
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,7 +27,10 @@ def bezier(points: ArrayLike) -> Piece:
 
 
 def closed_up(pieces: Sequence[Piece]) -> list[Piece]:
-    """The pieces but for those without extent; ends that all but meet are made to meet."""
+    """The pieces but for those without extent; ends that all but meet are made to meet.
+
+    Arcs of one circle that follow each other become one arc: formats cut what turns too far.
+    """
     kept = [piece for piece in pieces if np.ptp(piece.control_points, axis=0).any()]
     if not kept:
         return []
@@ -37,7 +40,36 @@ def closed_up(pieces: Sequence[Piece]) -> list[Piece]:
     gap = kept[-1].control_points[-1] - kept[0].control_points[0]
     if (len(kept) > 1 or kept[0].degree > 1) and np.hypot(*gap) <= near:
         kept[-1] = kept[-1].meeting(end=kept[0].control_points[0])
-    return kept
+    return _with_whole_arcs(kept)
+
+
+def _with_whole_arcs(pieces: list[Piece]) -> list[Piece]:
+    """The same with neighbouring arcs of one circle made one, up to a whole circle."""
+    found = pieces[:1]
+    for piece in pieces[1:]:
+        whole = _one_arc(found[-1], piece)
+        if whole is None:
+            found.append(piece)
+        else:
+            found[-1] = whole
+    return found
+
+
+def _one_arc(before: Piece, after: Piece) -> Piece | None:
+    """Two neighbouring arcs as one, None where they are not on one circle."""
+    one, two = before.arc, after.arc
+    if one is None or two is None or one.sweep * two.sweep < 0:
+        return None
+    near, sweep = SAME_END * one.radius, one.sweep + two.sweep
+    apart = np.hypot(one.centre[0] - two.centre[0], one.centre[1] - two.centre[1])
+    if abs(sweep) > FULL_TURN + SAME_END or max(apart, abs(one.radius - two.radius)) > near:
+        return None
+    begin, end = before.control_points[0], after.control_points[-1]
+    if (begin == end).all():
+        sweep = float(np.copysign(FULL_TURN, sweep))
+    if abs(sweep) > FULL_TURN:
+        return None
+    return Piece.of_arc(Arc(one.centre, one.radius, one.start_angle, sweep), begin=begin, end=end)
 
 
 def size_of(pieces: Sequence[Piece]) -> float:

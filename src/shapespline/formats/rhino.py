@@ -1,4 +1,4 @@
-"""3dm, the file of Rhino: NURBS curves and lines, an outline of several as one polycurve.
+"""3dm, the file of Rhino: NURBS curves, arcs and lines, an outline of several as one polycurve.
 
 Needs the extra ``rhino``. The library writes the time and random identities into the file: of all
 formats this is the one whose bytes differ from run to run. The geometry does not.
@@ -6,6 +6,7 @@ formats this is the one whose bytes differ from run to run. The geometry does no
 
 from __future__ import annotations
 
+from math import atan2, cos, sin
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from shapespline.errors import FormatError, MissingExtraError
 from shapespline.formats.chains import chained
 from shapespline.formats.entities import entities
 from shapespline.geometry import Outlines
-from shapespline.values import Piece
+from shapespline.values import Arc, Piece
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -92,6 +93,8 @@ def _curve(rhino3dm: Any, entity: Entity) -> Any:
     points = [rhino3dm.Point3d(float(x), float(y), 0.0) for x, y in entity.curve.control_points]
     if entity.is_line:
         return rhino3dm.LineCurve(*points)
+    if entity.arc is not None:
+        return _arc_curve(rhino3dm, entity.arc)
     degree = entity.curve.degree
     curve = rhino3dm.NurbsCurve(3, False, degree + 1, len(points))
     for index, point in enumerate(points):
@@ -101,8 +104,22 @@ def _curve(rhino3dm: Any, entity: Entity) -> Any:
     return curve
 
 
+def _arc_curve(rhino3dm: Any, arc: Arc) -> Any:
+    """An arc or a circle in its own plane, whose x axis leads to the beginning."""
+    xyz = (float(arc.centre[0]), float(arc.centre[1]), 0.0)
+    a, sign = arc.start_angle, 1.0 if arc.sweep > 0 else -1.0
+    plane = rhino3dm.Plane(
+        rhino3dm.Point3d(*xyz),
+        rhino3dm.Vector3d(cos(a), sin(a), 0.0),
+        rhino3dm.Vector3d(-sign * sin(a), sign * cos(a), 0.0),
+    )
+    circle = rhino3dm.Circle(arc.radius)
+    circle.Plane = plane
+    return rhino3dm.ArcCurve.CreateFromArc(rhino3dm.Arc(circle, abs(arc.sweep)))
+
+
 def read(path: Path) -> Outlines:
-    """Curves of a 3dm file in a plane z = constant: lines, polylines, NURBS, joined ones.
+    """Curves of a 3dm file in a plane z = constant: lines, arcs, polylines, NURBS, joined ones.
 
     Raises
     ------
@@ -137,10 +154,12 @@ def _pieces(rhino3dm: Any, curve: Any) -> list[Piece]:
         points = _flat([curve.Point(index) for index in range(curve.PointCount)])
         ends = np.array([0.0, 0.0, 1.0, 1.0])
         return [Piece("line", 1, ends, points[k : k + 2]) for k in range(len(points) - 1)]
+    if isinstance(curve, rhino3dm.ArcCurve):
+        return [_arc_piece(curve)]
     spline = curve.ToNurbsCurve()
     if spline is None or spline.IsRational:
         raise FormatError(
-            "the file holds a rational curve (an arc or a circle); in Rhino, rebuild it or convert"
+            "the file holds a rational curve (a conic); in Rhino, rebuild it or convert"
             " it to a non-rational curve of degree 3 first"
         )
     points = _flat([spline.Points[index] for index in range(len(spline.Points))])
@@ -154,6 +173,18 @@ def _pieces(rhino3dm: Any, curve: Any) -> list[Piece]:
     without_inner = len(points) == degree + 1
     kind = "spline" if not without_inner else "line" if degree == 1 else "bezier"
     return [Piece(kind, degree, knots, points)]
+
+
+def _arc_piece(curve: Any) -> Piece:
+    """An arc between two angles of its plane's x axis."""
+    arc = curve.Arc
+    plane = arc.Plane
+    _flat([arc.StartPoint, arc.MidPoint, arc.EndPoint])
+    ux, uy, vx, vy = plane.XAxis.X, plane.XAxis.Y, plane.YAxis.X, plane.YAxis.Y
+    sign = 1.0 if ux * vy - uy * vx > 0 else -1.0
+    start = atan2(uy, ux) + sign * arc.StartAngle
+    centre = (arc.Center.X, arc.Center.Y)
+    return Piece.of_arc(Arc(centre, arc.Radius, start, sign * (arc.EndAngle - arc.StartAngle)))
 
 
 def _flat(points: list[Any]) -> FloatArray:

@@ -1,4 +1,4 @@
-"""STEP (ISO 10303-21): plane faces bounded by B_SPLINE_CURVE_WITH_KNOTS and lines.
+"""STEP (ISO 10303-21): plane faces bounded by B-splines, circles and lines.
 
 A closed outline is a face with its holes: programs that read STEP look for bodies, and many of them
 pass over loose curves. Its bound is one closed wire, ready to be extruded. Open curves are loose.
@@ -70,8 +70,8 @@ def encode(drawing: Drawing) -> bytes:
 def read(path: Path) -> Outlines:
     """Curves of a STEP file in a plane z = constant; its unit becomes millimetres.
 
-    Lines and B-splines are exact; circles, ellipses and rational curves come within 1e-10 of
-    their size.
+    Lines, circles and B-splines are exact; ellipses and rational curves come within 1e-10 of their
+    size.
 
     Raises
     ------

@@ -35,10 +35,11 @@ UNPAINTED = ("none", "transparent")
 def read(path: Path) -> Outlines:
     """Read the outlines of an SVG drawing.
 
-    Lines and Beziers are exact; arcs of ellipses become cubics within a billionth of their size. y
-    is turned over within the view box, which is the frame. Where width or height have a unit of
-    length (mm, cm, in, pt, pc, Q), coordinates are in that unit, otherwise they are those of the
-    view box, "px". Colours are not kept: an outline inside another one counts as its hole.
+    Lines, arcs of circles and Beziers are exact; arcs of ellipses become cubics within a billionth
+    of their size. y is turned over within the view box, which is the frame. Where width or height
+    have a unit of length (mm, cm, in, pt, pc, Q), coordinates are in that unit, otherwise they are
+    those of the view box, "px". Colours are not kept: an outline inside another one counts as its
+    hole.
 
     Parameters
     ----------
@@ -75,11 +76,8 @@ def read(path: Path) -> Outlines:
     if height is None:
         y = np.concatenate([piece.control_points[:, 1] for pieces in curves for piece in pieces])
         height = float(y.min() + y.max())
-    scale, shift = np.array([page.scale, -page.scale]), np.array([0.0, height * page.scale])
-    turned = [
-        [piece._replace(control_points=piece.control_points * scale + shift) for piece in pieces]
-        for pieces in curves
-    ]
+    scale, shift = np.diag([page.scale, -page.scale]), np.array([0.0, height * page.scale])
+    turned = [[piece.moved(scale, shift) for piece in pieces] for pieces in curves]
     return Outlines(turned, page.frame, page.unit)
 
 
@@ -115,17 +113,14 @@ def _pieces_of(shape: Shape) -> Iterator[list[Piece]]:
     from svgelements import Close, Move
 
     m = shape.transform
-    axes, origin = np.array([[m.a, m.b], [m.c, m.d]]), np.array([m.e, m.f])
+    axes, origin = np.array([[m.a, m.c], [m.b, m.d]]), np.array([m.e, m.f])
     pieces: list[Piece] = []
     for segment in shape.segments(transformed=False):
         if isinstance(segment, Move):
             yield closed_up(pieces)
             pieces = []
             continue
-        pieces += [
-            piece._replace(control_points=piece.control_points @ axes + origin)
-            for piece in _pieces_of_segment(segment)
-        ]
+        pieces += [piece.moved(axes, origin) for piece in _pieces_of_segment(segment)]
         if isinstance(segment, Close):
             yield closed_up(pieces)
             pieces = []
@@ -154,7 +149,8 @@ def _arc(arc: Arc) -> list[Piece]:
     centre = _xy(arc.center)
     first, second = _xy(arc.prx) - centre, _xy(arc.pry) - centre
     pieces = elliptical_arc(centre, first, second, arc.get_start_t(), arc.sweep)
-    pieces[0].control_points[0], pieces[-1].control_points[-1] = start, end
+    pieces[0] = pieces[0].meeting(begin=start)
+    pieces[-1] = pieces[-1].meeting(end=end)
     return pieces
 
 

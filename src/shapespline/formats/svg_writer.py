@@ -1,21 +1,29 @@
-"""SVG: cubic Beziers, exact up to degree 3, filled as a silhouette."""
+"""SVG: arcs and cubic Beziers, exact up to degree 3, filled as a silhouette."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from shapespline.errors import FormatError, InvalidInputError
-from shapespline.formats.cubics import as_cubics, groups, is_straight, turning_points
+from shapespline.formats.cubics import (
+    as_cubics,
+    cubics_and_arcs,
+    groups,
+    is_straight,
+    turning_points,
+)
 from shapespline.units import MILLIMETRES, PIXEL
 from shapespline.validation import is_number
-from shapespline.values import ViewBox
+from shapespline.values import Piece, ViewBox
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from shapespline.typing import FloatArray
-    from shapespline.values import Drawing, Fit
+    from shapespline.values import Arc, Drawing, Fit
 
 # Units that CSS knows; the page of a drawing in another one is sized in millimetres.
 PAGE_UNITS = (PIXEL, "mm", "cm", "in", "pt", "pc", "Q")
@@ -77,7 +85,8 @@ def encode(
 
     Notes
     -----
-    Exact, but for one rounding of each coordinate, up to degree 3. Above, within 1e-6 of the
+    Exact, but for one rounding of each coordinate, up to degree 3; arcs are A commands of a quarter
+    of a circle at most. Above, within 1e-6 of the
     diagonal of the contour's bounding box (a rigorous bound, up to rounding) and
     tangent-continuous, but no longer of continuous curvature.
 
@@ -116,9 +125,7 @@ def encode(
         filled = fill and drawing.fits[group[0]].closed
         color = drawing.colors[group[0]] or "black"
         style = f'fill="{color}" fill-rule="evenodd"' if filled else stroked
-        data = "".join(
-            _path_data(placement(pieces[index]), drawing.fits[index].closed) for index in group
-        )
+        data = "".join(_path_data(drawing.fits[index], placement) for index in group)
         lines.append(f'<path {style} d="{data}"/>')
     if band is not None:
         lines += [_band_path(fit, band, placement) for fit in drawing if fit.uncertainty]
@@ -159,15 +166,35 @@ def _placement(frame: ViewBox | None, pieces: list[FloatArray], stroke_width: fl
 # Text
 
 
-def _path_data(cubics: FloatArray, closed: bool) -> str:
-    """Commands of one curve: M, then C or L for each piece, and Z if closed."""
-    commands = [f"M{_pair(cubics[0, 0])}"]
-    for index, cubic in enumerate(cubics):
-        if not is_straight(cubic):
-            commands.append("C" + " ".join(map(_pair, cubic[1:])))
-        elif not closed or index < len(cubics) - 1:  # else Z draws the line
-            commands.append(f"L{_pair(cubic[3])}")
-    return "".join(commands) + ("Z" if closed else "")
+def _path_data(fit: Fit, placement: Placement) -> str:
+    """Commands of one curve: M, then C, L or A for each piece, and Z if closed."""
+    parts = cubics_and_arcs(fit)
+    first = parts[0].control_points[0] if isinstance(parts[0], Piece) else parts[0][0, 0]
+    commands = [f"M{_pair(placement(first))}"]
+    for part in parts:
+        if isinstance(part, Piece):
+            commands += _arc_commands(part, placement)
+            continue
+        for cubic in placement(part):
+            if is_straight(cubic):
+                commands.append(f"L{_pair(cubic[3])}")
+            else:
+                commands.append("C" + " ".join(map(_pair, cubic[1:])))
+    if fit.closed and commands[-1].startswith("L"):  # Z draws the line
+        del commands[-1]
+    return "".join(commands) + ("Z" if fit.closed else "")
+
+
+def _arc_commands(piece: Piece, placement: Placement) -> Iterator[str]:
+    """A for each quarter at most: the ends of half a turn tell half the digits of its centre."""
+    arc = cast("Arc", piece.arc)
+    count = max(1, math.ceil(abs(arc.sweep) / (0.5 * math.pi) - 1e-9))
+    ends = placement(arc.at(np.arange(1, count + 1) / count))
+    ends[-1] = placement(piece.control_points[-1])
+    radius = _number(arc.radius)
+    for end in ends:
+        # y runs down: what turned left turns right.
+        yield f"A{radius} {radius} 0 0 {int(arc.sweep < 0)} {_pair(end)}"
 
 
 def _pair(point: FloatArray) -> str:

@@ -144,9 +144,13 @@ class Arc:
 
     def at(self, share: ArrayLike) -> FloatArray:
         """Points at parts of the sweep, 0 to 1, shape (..., 2)."""
-        angles = self.start_angle + self.sweep * np.asarray(share, dtype=np.float64)
-        around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-        return np.asarray(self.centre) + self.radius * around
+        turned = self.sweep * np.asarray(share, dtype=np.float64)
+        x, y = self.centre
+        a, r = self.start_angle, self.radius
+        # By the chord from the beginning: of a flat arc the radius cancels almost all digits.
+        chord, way = 2.0 * r * np.sin(0.5 * turned), a + 0.5 * turned
+        along = np.stack([-np.sin(way), np.cos(way)], axis=-1)
+        return np.array([x + r * cos(a), y + r * sin(a)]) + chord[..., None] * along
 
     def length(self) -> float:
         """Arc length, in the unit of the radius."""
@@ -192,7 +196,7 @@ class Arc:
         )
 
     def n_beziers(self, tolerance: float | None = None) -> int:
-        """How many Beziers its twin is made of.
+        """How many Beziers its twin is made of, of a whole circle some for each quarter.
 
         Parameters
         ----------
@@ -204,7 +208,7 @@ class Arc:
         --------
         >>> circle = Arc((0, 0), 1.0, 0.0, 2 * pi)
         >>> circle.n_beziers(0.1), circle.n_beziers()
-        (5, 31)
+        (8, 32)
         """
         part = READ_PART
         if tolerance is not None:
@@ -215,7 +219,7 @@ class Arc:
         n = max(1, ceil(quarters - 1e-9), ceil(law))
         while deviation(abs(self.sweep) / n) > part:
             n += 1
-        return n
+        return 4 * ceil(n / 4) if self.is_circle else n
 
     def twin(self, n_beziers: int) -> tuple[FloatArray, FloatArray]:
         """Knots over [0, 1] and control points of the cubic B-spline that stands for the arc.
@@ -226,8 +230,9 @@ class Arc:
         n = n_beziers
         nodes = self.at(np.arange(n + 1) / n)
         nodes[-1] = self.end
-        radii = (nodes - self.centre) * np.copysign(1.0, self.sweep)
-        arms = handle(abs(self.sweep) / n) * np.column_stack([-radii[:, 1], radii[:, 0]])
+        angles = self.start_angle + self.sweep * np.arange(n + 1) / n
+        arm = np.copysign(self.radius * handle(abs(self.sweep) / n), self.sweep)
+        arms = arm * np.column_stack([-np.sin(angles), np.cos(angles)])
         points = np.empty((2 * n + 2, 2))
         points[0], points[-1] = nodes[0], nodes[-1]
         points[1:-1:2], points[2:-1:2] = nodes[:-1] + arms[:-1], nodes[1:] - arms[1:]

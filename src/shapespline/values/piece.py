@@ -103,8 +103,17 @@ class Piece(NamedTuple):
         return inner + float(np.hypot(moved[:, 0], moved[:, 1]).max())
 
     def meeting(self, begin: ArrayLike | None = None, end: ArrayLike | None = None) -> Piece:
-        """The same with its ends, one or both, at given points, a rounding away."""
+        """The same with its ends, one or both, at given points, a rounding away.
+
+        What an arc's ends are moved by the twin between them takes part in, so that it stays
+        smooth.
+        """
         points = self.control_points.copy()
+        if self.arc is not None:
+            share = np.linspace(0.0, 1.0, len(points))[:, None]
+            first = 0.0 if begin is None else np.asarray(begin) - points[0]
+            last = 0.0 if end is None else np.asarray(end) - points[-1]
+            points += (1 - share) * first + share * last
         if begin is not None:
             points[0] = begin
         if end is not None:
