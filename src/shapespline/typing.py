@@ -12,7 +12,7 @@ IntArray: TypeAlias = NDArray[np.int64]
 BoolArray: TypeAlias = NDArray[np.bool_]
 
 # How a curve within a tolerance is made, and how long it is searched for.
-Form: TypeAlias = Literal["pieces", "spline"]
+Form: TypeAlias = Literal["pieces", "spline", "arcs"]
 Effort: TypeAlias = Literal["fast", "balanced", "smallest"]
 # Of an open curve, as a caller says it: its ends are free, or the first and last point exactly.
 Ends: TypeAlias = Literal["free", "fixed"]

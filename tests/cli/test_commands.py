@@ -75,16 +75,28 @@ def test_a_drawing_in_svg_becomes_a_dxf_in_its_unit(shapespline, tmp_path):
     assert ss.compare(ss.read(output), ss.read(source)).hausdorff_distance < 1e-8
 
 
+@pytest.mark.filterwarnings("ignore:logo.svg")
 def test_arcs_for_machines(shapespline, tmp_path):
     source, output = tmp_path / "logo.svg", tmp_path / "logo.dxf"
     source.write_text(LOGO)
     assert shapespline("fit", source, "-o", output, "-t", 0.1, "--arcs")[0] == 0
     assert b"LWPOLYLINE" in output.read_bytes()
     assert b"SPLINE\n" not in output.read_bytes().replace(b"LWPOLYLINE\n", b"")
-    code, out, err = shapespline("fit", source, "-o", tmp_path / "x.svg", "-t", 0.1, "--arcs")
+    # Fitted to the data, not made of a curve that was: within the tolerance, in every format.
+    drawing = ss.read(output)
+    assert {piece.kind for fit in drawing for piece in fit.pieces} <= {"line", "arc"}
+    found = ss.compare(drawing, ss.read(source))
+    assert found.hausdorff_distance <= 0.1 * 1.02 + found.spacing**2
+    assert shapespline("fit", source, "-o", tmp_path / "x.svg", "-t", 0.1, "--arcs")[0] == 0
+    assert "A" in (tmp_path / "x.svg").read_text()
+    code, out, err = shapespline("fit", source, "-o", tmp_path / "x.svg", "--arcs")
     assert (code, out) == (1, "")
     assert one_line(err)
     assert "arcs is not an option for x.svg" in err
+    code, out, err = shapespline("fit", source, "-o", output, "--form", "arcs")
+    assert (code, out) == (1, "")
+    assert "--form arcs" in err
+    assert "within a tolerance" in err
 
 
 def test_the_size_of_a_pixel(shapespline, tmp_path):

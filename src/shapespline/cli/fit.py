@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
-from pathlib import Path  # noqa: TC003 - typer reads annotations
-from typing import TYPE_CHECKING, Annotated, Literal
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -177,8 +177,11 @@ def fit(
         ),
     ] = "auto",
     form: Annotated[
-        Literal["pieces", "spline"],
-        typer.Option(help="Lines, Beziers and splines, or one spline.", rich_help_panel=FIT),
+        Literal["pieces", "spline", "arcs"],
+        typer.Option(
+            help="Lines, Beziers and splines; one spline; or lines and arcs (within a tolerance).",
+            rich_help_panel=FIT,
+        ),
     ] = "pieces",
     effort: Annotated[
         Literal["fast", "balanced", "smallest"],
@@ -257,18 +260,6 @@ def fit(
     writing: options.Writing,
 ) -> None:
     """Fit B-spline curves to the outlines of every INPUT and write them to files."""
-    batch = Batch(
-        sources,
-        output,
-        ending,
-        stdin_format,
-        as_json,
-        jobs,
-        scheduler,
-        resume,
-        writing.given(),
-        force,
-    )
     from shapespline.fitting import Settings
 
     asked = {
@@ -286,9 +277,23 @@ def fit(
     if settings_path is not None:
         typed = {name: value for name, value in asked.items() if _typed(context, name)}
         asked = settings_file.merged(settings_file.load(settings_path), typed)
+    asked, writing = _as_arcs(asked, writing, ending or Path(output or "").suffix)
     settings = Settings.from_dict(asked)
     if save_settings is not None:
         settings_file.save(save_settings, settings)
+
+    batch = Batch(
+        sources,
+        output,
+        ending,
+        stdin_format,
+        as_json,
+        jobs,
+        scheduler,
+        resume,
+        writing.given(),
+        force,
+    )
 
     def work_on(found: Sequence[Path]) -> FitFile:
         work = FitFile(
@@ -304,6 +309,20 @@ def fit(
         return work
 
     run_files(work_on, batch)
+
+
+def _as_arcs(
+    asked: dict[str, Any], writing: options.Writing, ending: str
+) -> tuple[dict[str, Any], options.Writing]:
+    """What ``--arcs`` means: arcs fitted within a tolerance, else those that DXF makes of curves.
+
+    With an accuracy of their own the arcs stand beside the curves that were fitted, as before.
+    """
+    fitted = asked.get("tolerance") is not None and writing.arc_tolerance is None
+    if not (writing.arcs and fitted) or asked.get("form", "pieces") != "pieces":
+        return asked, writing
+    drawn = ending.lower().removeprefix(".") == "dxf"  # one polyline for each outline
+    return asked | {"form": "arcs"}, replace(writing, arcs=drawn)
 
 
 def _typed(context: typer.Context, setting: str) -> bool:

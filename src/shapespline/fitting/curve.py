@@ -61,8 +61,10 @@ def fit_curve(
     corners : "auto", "free", None or array_like of indices
         Keep corners sharp and everything else tangent-continuous; round or make
         them where that is smaller; know none; or these points are the corners.
-    form : {"pieces", "spline"}
-        Pieces between nodes, or one spline, smooth everywhere.
+    form : {"pieces", "spline", "arcs"}
+        Pieces between nodes; one spline, smooth everywhere; or, within a tolerance, lines and arcs
+        alone, tangent where the curve is smooth (``fit.pieces``; ``fit.curve`` holds splines in
+        their place that are a hundredth of the tolerance from them, which the distances count).
     ends : {"free", "fixed"}
         Of an open curve: "fixed" begins and ends in the first and last point, exactly. Pieces
         whose ends are free may need fewer points; one spline always has fixed ends, but where it

@@ -10,6 +10,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from shapespline.engines.pieces import chords_found, drawn_straight, in_facets
+from shapespline.fitting.arcs import LinesAndArcs
 from shapespline.fitting.choose import ROUGH_PART
 from shapespline.fitting.estimate import (
     Estimation,
@@ -82,6 +83,9 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
     request = problem.request
     if request.style.form == "spline":
         yield OneSpline()
+        return
+    if request.style.form == "arcs":
+        yield LinesAndArcs(ask)
         return
     if request.pieces_only:
         yield from plan_pieces(problem, shortlist)

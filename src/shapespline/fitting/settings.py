@@ -120,6 +120,8 @@ class Settings:
             self._refuse(("corners", "effort"), "with weights and no tolerance")
         if self.form == "spline" and not isinstance(self.corners, str | None):
             raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
+        if self.form == "arcs":
+            self._check_arcs(within)
         if self.form == "spline" and within:
             if self._has("end_tangents", "through"):
                 raise InvalidInputError("end_tangents and through act with form='pieces' only")
@@ -130,6 +132,18 @@ class Settings:
             raise InvalidInputError(
                 "end_tangents do not act with corners='free': joints are free there"
             )
+
+    def _check_arcs(self, within: bool) -> None:
+        """Raise if lines and arcs cannot be made, or an option does not act on them."""
+        if not within:
+            raise InvalidInputError("form='arcs' acts within a tolerance: give one")
+        if self.degree < 3:
+            raise InvalidInputError(
+                f"degree must be 3 or more for form='arcs', got {self.degree}: arcs stand in the"
+                " curve as cubics"
+            )
+        if self.symmetric:
+            raise InvalidInputError("symmetric acts with form='pieces' only")
 
     @property
     def _one_spline(self) -> bool:

@@ -107,7 +107,7 @@ def distances_of_all(
         float(np.sqrt(measured.total / n_points)),
         reverse_distance(fit.spline, fit.contour) + proxy.error_bound,
         fit.parameters,
-    )
+    ).beside(fit.sections)
 
 
 def with_distances(fit: Fit, found: Distances, tolerance: float, monitor: Monitor) -> Fit:

@@ -18,7 +18,7 @@ import numpy as np
 
 from shapespline.errors import InvalidInputError
 from shapespline.formats.entities import entities
-from shapespline.geometry import arc_polyline, joined
+from shapespline.geometry import arc_polyline, bulged, joined, lines_and_arcs
 from shapespline.values import Piece
 
 if TYPE_CHECKING:
@@ -192,6 +192,9 @@ def _add_spline(space: Modelspace, curve: BSplineCurve, degree: int, *, closed: 
 def _add_arcs(space: Modelspace, fit: Fit, arc_tolerance: float | None) -> None:
     if arc_tolerance is None:
         arc_tolerance = max(ARC_PART * fit.tolerance, ARC_LEAST * fit.contour.box_diagonal)
-    found = arc_polyline(fit.spline, arc_tolerance, closed=fit.closed)
+    if any(piece.arc for piece in fit.sections):
+        found = bulged(lines_and_arcs(fit, arc_tolerance), closed=fit.closed)
+    else:
+        found = arc_polyline(fit.spline, arc_tolerance, closed=fit.closed)
     vertices = np.column_stack([found.points, found.bulges])
     space.add_lwpolyline(vertices.tolist(), format="xyb", close=found.closed)

@@ -15,6 +15,7 @@ from shapespline.geometry.exact import Outlines, exact_drawing, exact_fit
 from shapespline.geometry.flattening import chords, sampled
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
 from shapespline.geometry.joining import elevated, joined, turn_between
+from shapespline.geometry.lines_and_arcs import bulged, lines_and_arcs
 from shapespline.geometry.measures import Box, bounds, contains, enclosed_area, evenly_spaced
 from shapespline.geometry.moving import (
     reversed_fit,
@@ -43,6 +44,7 @@ __all__ = [
     "arc_polyline",
     "backwards",
     "bounds",
+    "bulged",
     "chords",
     "compare",
     "confidence_band",
@@ -58,6 +60,7 @@ __all__ = [
     "greville_matched",
     "in_unit",
     "joined",
+    "lines_and_arcs",
     "nearest",
     "nondecreasing",
     "offset_lines",
