@@ -4,6 +4,7 @@
 #   make docs    the documentation as a site, with its gallery
 #   make wheel   what is installed without a compiler, tried in a fresh environment
 #   make sanitize    memory and undefined behaviour in the kernel
+#   make fuzz    ten minutes of damaged and hostile files for every reader
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -12,7 +13,7 @@ IMAGES := examples/data/images
 OUTLINES := examples/data/outlines
 KERNEL := $(wildcard kernels/bindings/*.[ch]pp kernels/include/shapespline/*/*.hpp)
 
-.PHONY: demo test quick sanitize lint bench paper figures docs wheel clean
+.PHONY: demo test quick sanitize fuzz lint bench paper figures docs wheel clean
 .DEFAULT_GOAL := demo
 
 demo: $(READY)
@@ -33,6 +34,10 @@ quick: $(READY)
 # The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: its native tests, the quick suite.
 sanitize: $(READY)
 	sh scripts/sanitize.sh $(BIN)/python
+
+# What was found lies in bench-output/fuzz.
+fuzz: $(READY)
+	$(BIN)/python -m benchmarks.fuzz --minutes 10
 
 lint: $(READY)
 	$(BIN)/ruff check .

@@ -21,7 +21,7 @@ from tests.support.round_trip import flattened
 
 import shapespline as ss
 from shapespline.errors import FormatError, SkippedContentWarning
-from shapespline.formats import dxf_reader, dxf_writer
+from shapespline.formats import dxf_writer
 from shapespline.formats.splines import spline_pieces
 from shapespline.geometry.exact import Outlines, exact_drawing, exact_fit
 from shapespline.geometry.nearest import nearest
@@ -239,10 +239,8 @@ def test_a_picture_with_the_wrong_ending(tmp_path):
         ss.read(tmp_path / "picture.dxf")
 
 
-def test_bombs_of_blocks_are_refused_at_once(draw, monkeypatch):
-    monkeypatch.setattr(dxf_reader, "MOST_ENTITIES", 3000)  # it takes seconds to count to 200 000
-
-    def add(space):
+def test_bombs_of_blocks_are_refused_before_one_is_exploded(draw):
+    def tenfold(space):
         blocks = space.doc.blocks
         blocks.new("B0").add_line((0, 0), (1, 0))
         for k in range(1, 12):
@@ -252,16 +250,43 @@ def test_bombs_of_blocks_are_refused_at_once(draw, monkeypatch):
         space.add_blockref("B11", (0, 0))
 
     def endless(space):
-        block = space.doc.blocks.new("SELF")
-        block.add_line((0, 0), (1, 0))
-        block.add_blockref("SELF", (1, 1))
-        space.add_blockref("SELF", (0, 0))
+        for name, other in (("ONE", "OTHER"), ("OTHER", "ONE")):
+            block = space.doc.blocks.new(name)
+            block.add_line((0, 0), (1, 0))
+            block.add_blockref(other, (1, 1))
+        space.add_blockref("ONE", (0, 0))
 
-    for bomb in (add, endless):
-        with pytest.raises(
-            FormatError, match=r"more than 3000 entities or lie in one another more than 50"
-        ):
+    def array(space):
+        space.doc.blocks.new("DOT").add_line((0, 0), (1, 0))
+        many = {"column_count": 3000, "row_count": 3000, "row_spacing": 1, "column_spacing": 1}
+        space.add_blockref("DOT", (0, 0), dxfattribs=many)
+
+    def long(space):
+        space.doc.blocks.new("LONG").add_lwpolyline([(k, k % 2) for k in range(2000)])
+        for index in range(501):
+            space.add_blockref("LONG", (index, 0))
+
+    def deep(space):
+        blocks = space.doc.blocks
+        blocks.new("D0").add_line((0, 0), (1, 0))
+        for k in range(1, 60):
+            blocks.new(f"D{k}").add_blockref(f"D{k - 1}", (0, 0))
+        space.add_blockref("D59", (0, 0))
+
+    for bomb, message in (
+        (tenfold, "make 211111111111 entities, more than 200000"),
+        (endless, "the block 'one' holds itself"),
+        (array, "make 18000000 entities"),
+        (long, "make 1002000 vertices, more than 1000000"),
+        (deep, "more than 50 deep"),
+    ):
+        with pytest.raises(FormatError, match=message):
             draw(bomb)
+
+
+def test_splines_of_many_fit_points_are_refused(draw):
+    with pytest.raises(FormatError, match="1001 fit points and no control points"):
+        draw(lambda space: space.add_spline([(k, k % 2) for k in range(1001)]))
 
 
 def test_coordinates_that_cannot_be(draw):

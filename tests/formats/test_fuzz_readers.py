@@ -10,6 +10,11 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
+from benchmarks.fuzz.__main__ import fuzzed
+from benchmarks.fuzz.child import outcome
+from benchmarks.fuzz.mutate import mutated
+from benchmarks.fuzz.seeds import endings
+from benchmarks.fuzz.seeds import sound as sound_files
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
@@ -184,6 +189,31 @@ def test_a_full_disk_leaves_the_old_file(tmp_path, monkeypatch):
         ss.write(path, nested())
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+# A second for most formats: the process starts, and libraries with it.
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("ending", endings())
+def test_fuzzed_files(ending):
+    assert all(len(ss.read(data, format=f".{ending}")) for data in sound_files(ending))
+    counts, faults = fuzzed(ending, first=1_000_000, seconds=1.5)
+    assert counts["said"] > 0
+    assert not counts["FAULT"], faults
+
+
+def test_the_fuzzer_sees_what_is_wrong(monkeypatch):
+    def broken(data, format):
+        raise KeyError("x")
+
+    assert outcome(b"0,0\n1,0", "csv") == "read"
+    assert outcome(b"\0", "csv") == "said"
+    monkeypatch.setattr(ss, "read", broken)
+    assert outcome(b"0,0", "csv") == "FAULT KeyError: 'x'"
+    monkeypatch.setattr(ss, "read", lambda data, format: ())
+    assert outcome(b"0,0", "csv").startswith("FAULT nothing was read")
+    assert mutated([b"12,3"], "csv", 5) == mutated([b"12,3"], "csv", 5)
+    assert len({mutated([b"12,3"], "csv", seed) for seed in range(30)}) > 10
 
 
 def test_json_of_absurd_depth_and_size(tmp_path):

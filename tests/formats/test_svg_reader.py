@@ -294,6 +294,15 @@ def test_a_bomb_of_uses_is_refused_at_once(tmp_path):
         ss.read(file)
 
 
+def test_paths_without_end_are_refused_before_they_are_parsed(tmp_path):
+    long = path("M0 0" + "L1 2" * 1000).replace("<path", '<path id="p"')
+    file = tmp_path / "long.svg"
+    uses = '<use href="#p"/>' * 500
+    file.write_text(f"{HEAD}><defs>{long}</defs>{uses}</svg>")
+    with pytest.raises(FormatError, match="more than 1000000 numbers"):
+        ss.read(file)
+
+
 def test_a_picture_with_the_wrong_ending(tmp_path):
     Image.new("L", (8, 8)).save(tmp_path / "picture.png")
     (tmp_path / "picture.png").rename(tmp_path / "picture.svg")

@@ -30,9 +30,12 @@ Entity: TypeAlias = Any
 # $INSUNITS
 UNITS = {1: "in", 2: "ft", 3: "mi", 4: "mm", 5: "cm", 6: "m", 7: "km", 9: "mil", 10: "yd",
          13: "um", 14: "dm"}  # fmt: skip
-# Entities after blocks have been exploded, and how deep blocks lie in one another.
-MOST_ENTITIES = 200_000
+# Entities of all blocks after they have been exploded, vertices of their polylines and splines, and
+# how deep blocks lie in one another (FMT-09).
+MOST_ENTITIES, MOST_VERTICES = 200_000, 1_000_000
 DEEPEST = 50
+# Points that a spline without control points goes through: ezdxf's system for them is quadratic.
+MOST_FIT_POINTS = 1000
 # Control points of a two-dimensional polyline that its curve does not pass.
 FRAME_POINT = 16
 # Heights that differ by more, of the size of the drawing, make it three-dimensional.
@@ -69,7 +72,7 @@ def read(path: Path) -> Outlines:
     runs: list[list[Piece]] = []
     heights: list[float] = []
     skipped: dict[str, None] = {}
-    for entity in _visible(document):
+    for entity in _shown(document):
         kind = entity.dxftype()
         convert = PIECES.get(kind)
         if convert is None:
@@ -116,22 +119,24 @@ def _document(path: Path) -> Document:
         ) from error
 
 
+def _shown(document: Document) -> list[Entity]:
+    try:
+        return list(_visible(document))
+    except (FormatError, MemoryError):
+        raise
+    except Exception as error:  # whatever a damaged block makes the library stumble over
+        raise FormatError(f"its blocks cannot be exploded: {error}") from error
+
+
 def _visible(document: Document) -> Iterator[Entity]:
     """Entities of the model space that are shown, blocks exploded."""
     hidden = {
         layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()
     }
-    budget = MOST_ENTITIES
+    _check_blocks(document)
 
-    def exploded(entities: Iterable[Entity], depth: int) -> Iterator[Entity]:
-        nonlocal budget
+    def exploded(entities: Iterable[Entity]) -> Iterator[Entity]:
         for entity in entities:
-            budget -= 1
-            if budget < 0 or depth > DEEPEST:
-                raise FormatError(
-                    f"its blocks hold more than {MOST_ENTITIES} entities or lie in one another"
-                    f" more than {DEEPEST} deep; explode and thin them in the drawing program"
-                )
             kind = entity.dxftype()
             if kind not in PIECES and kind != "INSERT":
                 yield entity  # to be named; it may lack the attributes asked for below
@@ -140,11 +145,53 @@ def _visible(document: Document) -> Iterator[Entity]:
             elif kind != "INSERT":
                 yield entity
             elif entity.mcount > 1:
-                yield from exploded(entity.multi_insert(), depth + 1)
+                yield from exploded(entity.multi_insert())
             else:
-                yield from exploded(entity.virtual_entities(), depth + 1)
+                yield from exploded(entity.virtual_entities())
 
-    yield from exploded(document.modelspace(), 0)
+    yield from exploded(document.modelspace())
+
+
+def _check_blocks(document: Document) -> None:
+    """Raise if the blocks make too much, before any of them is exploded."""
+    known: dict[str, FloatArray] = {}
+
+    def made_by(entities: Iterable[Entity], inside: tuple[str, ...]) -> FloatArray:
+        """Entities and vertices, floats: products of arrays in arrays grow beyond integers."""
+        total = np.zeros(2)
+        for entity in entities:
+            if entity.dxftype() != "INSERT":
+                total += (1, _n_vertices(entity))
+                continue
+            name = str(entity.dxf.get("name", "")).lower()
+            if name in inside:
+                raise FormatError(f"the block {name!r} holds itself; purge the drawing")
+            if len(inside) >= DEEPEST:
+                raise FormatError(f"blocks lie in one another more than {DEEPEST} deep")
+            if name not in known:
+                known[name] = made_by(entity.block() or (), (*inside, name))
+            total += entity.mcount * (known[name] + (1, 0))
+        return total
+
+    inserts = [entity for entity in document.modelspace() if entity.dxftype() == "INSERT"]
+    for made, most, what in zip(
+        made_by(inserts, ()), (MOST_ENTITIES, MOST_VERTICES), ("entities", "vertices"), strict=True
+    ):
+        if made > most:
+            raise FormatError(
+                f"its blocks make {made:.0f} {what}, more than {most}; explode and thin them in the"
+                " drawing program"
+            )
+
+
+def _n_vertices(entity: Entity) -> int:
+    """Points that an entity of a block copies."""
+    kind = entity.dxftype()
+    if kind == "SPLINE":
+        return len(entity.control_points) + len(entity.fit_points)
+    if kind in ("LWPOLYLINE", "POLYLINE"):
+        return len(entity)
+    return 1
 
 
 def _is_finite(run: list[Piece]) -> bool:
@@ -224,6 +271,11 @@ def _bulging(begin: FloatArray, end: FloatArray, bulge: float) -> list[Piece]:
 
 
 def _spline(entity: Entity, heights: list[float]) -> list[Piece]:
+    if not entity.control_point_count() and entity.fit_point_count() > MOST_FIT_POINTS:
+        raise FormatError(
+            f"a SPLINE has {entity.fit_point_count()} fit points and no control points, more than"
+            f" {MOST_FIT_POINTS}; save it with control points"
+        )
     spline = entity.construction_tool()  # makes a curve of fit points where there is no other
     points = _flat(spline.control_points, heights)
     weights = list(spline.weights()) or None

@@ -22,9 +22,12 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from xml.etree.ElementTree import Element
 
-# After elements that are used again have been copied.
-MOST_ELEMENTS = 200_000
+# After elements that are used again have been copied; numbers are those of paths, polygons and
+# transforms, half a million points (FMT-09).
+MOST_ELEMENTS, MOST_NUMBERS = 200_000, 1_000_000
 DEEPEST = 200
+LONG = ("d", "points", "transform")
+NUMBER = re.compile(r"\d+")
 # A pixel of CSS (FMT-04).
 PIXEL_MILLIMETRES = 25.4 / 96
 LENGTH = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(px|mm|cm|in|pt|pc|Q)?\s*")
@@ -76,7 +79,7 @@ def prepared(data: bytes) -> Page:
         raise FormatError(f"no SVG drawing: its first element is <{_tag(root)}>")
     skipped: dict[str, None] = {}
     ids = {element.get("id", ""): element for element in root.iter()}
-    budget = [MOST_ELEMENTS]
+    budget = [MOST_ELEMENTS, MOST_NUMBERS]
     plain = _plain(root, ids, (), budget, skipped)
     view_box = _view_box(root)
     width, height = (_length(root.get(name)) for name in ("width", "height"))
@@ -144,6 +147,11 @@ def _plain(
     budget[0] -= 1
     if budget[0] < 0:
         raise FormatError(f"the drawing has more than {MOST_ELEMENTS} elements; split it")
+    budget[1] -= sum(len(NUMBER.findall(element.get(name, ""))) for name in LONG)
+    if budget[1] < 0:
+        raise FormatError(
+            f"the paths of the drawing have more than {MOST_NUMBERS} numbers; simplify or split it"
+        )
     attributes = {
         name: _without_unit(value) if name in LENGTHS else value
         for name, value in element.attrib.items()

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 # Vertices of an outline that are asked whether they lie inside another: where outlines touch or
 # share a stretch, a single one may be told wrong (GEO-03).
 WITNESSES = 7
+# Polygons that are asked at once; the nearest in size, which most often is the one, by itself.
+MOST_AT_ONCE = 256
 
 
 def parents_of(contours: Sequence[Contour]) -> list[int]:
@@ -38,8 +40,8 @@ def parents_of(contours: Sequence[Contour]) -> list[int]:
 def containing(polygons: Sequence[FloatArray]) -> list[int]:
     """For each polygon the smallest other one around it, -1 for none.
 
-    A polygon lies inside another if its box and its area are not the larger ones and most of a
-    few of its vertices are inside by the even-odd rule.
+    A polygon lies inside another if its box is not the larger one, its area is smaller and most of
+    a few of its vertices are inside by the even-odd rule.
 
     Parameters
     ----------
@@ -55,22 +57,31 @@ def containing(polygons: Sequence[FloatArray]) -> list[int]:
     if not polygons:
         return []
     areas = np.array([abs(signed_area(points)) for points in polygons])
-    # Equal areas: the earlier one is the outer one, so that no two contain each other.
     order: IntArray = np.argsort(-areas, kind="stable")
     lows = np.array([polygons[i].min(axis=0) for i in order])
     highs = np.array([polygons[i].max(axis=0) for i in order])
+    sides = [np.hstack([points, np.roll(points, -1, axis=0)]) for points in polygons]
     parents = [-1] * len(polygons)
     for rank, child in enumerate(order):
         boxed = (lows[:rank] <= lows[rank]).all(axis=1) & (highs[:rank] >= highs[rank]).all(axis=1)
+        boxed &= areas[order[:rank]] > areas[child]  # no two contain each other
         points = polygons[child]
         witnesses = points[np.linspace(0, len(points), WITNESSES, endpoint=False).astype(int)]
         # Areas fall, so the last container is the smallest one.
-        for outer in order[:rank][boxed][::-1]:
-            inside = sum(_contains(polygons[outer], point) for point in witnesses)
-            if 2 * inside > WITNESSES:
-                parents[child] = int(outer)
-                break
+        parents[child] = _first_around(witnesses, sides, order[:rank][boxed][::-1])
     return parents
+
+
+def _first_around(witnesses: FloatArray, sides: Sequence[FloatArray], outers: IntArray) -> int:
+    """The first of some polygons that holds most of the witnesses, -1 if none does."""
+    begin, count = 0, 1
+    while begin < len(outers):
+        asked = outers[begin : begin + count]
+        inside = _held(witnesses, [sides[outer] for outer in asked])
+        if (2 * inside > len(witnesses)).any():
+            return int(asked[np.argmax(2 * inside > len(witnesses))])
+        begin, count = begin + count, min(2 * count, MOST_AT_ONCE)
+    return -1
 
 
 def signed_area(points: FloatArray) -> float:
@@ -79,12 +90,16 @@ def signed_area(points: FloatArray) -> float:
     return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
 
 
-def _contains(polygon: FloatArray, point: FloatArray) -> bool:
-    """Even-odd rule: whether a ray to the right crosses the polygon an odd number of times."""
-    ahead = np.roll(polygon, -1, axis=0)
-    x, y = point
-    # Half-open in y, so that a ray through a vertex counts it once.
-    crossed = (polygon[:, 1] > y) != (ahead[:, 1] > y)
-    start, end = polygon[crossed], ahead[crossed]
-    at = start[:, 0] + (y - start[:, 1]) / (end[:, 1] - start[:, 1]) * (end[:, 0] - start[:, 0])
-    return bool(np.count_nonzero(at > x) % 2)
+def _held(points: FloatArray, polygons: Sequence[FloatArray]) -> IntArray:
+    """How many points each polygon, given by its sides, holds: rays to the right cross it."""
+    starts = np.cumsum([0, *(len(sides) for sides in polygons[:-1])])
+    sides = np.concatenate(polygons)
+    inside = np.zeros(len(polygons), dtype=np.int64)
+    for x, y in points:
+        # Half-open in y, so that a ray through a vertex counts it once.
+        crossed = np.flatnonzero((sides[:, 1] > y) != (sides[:, 3] > y))
+        x0, y0, x1, y1 = sides[crossed].T
+        right = crossed[x0 + (y - y0) / (y1 - y0) * (x1 - x0) > x]
+        owners = np.searchsorted(starts, right, side="right") - 1
+        inside += np.bincount(owners, minlength=len(polygons)) % 2
+    return inside

@@ -67,7 +67,8 @@ def evenly_lit(values: NDArray[Any], light: bool, window: float | None = None) -
     size = max(height, width) / BLOCKS if window is None else 0.5 * window
     if window is not None and not window >= 4:
         raise InvalidInputError(f"local must be a window of at least 4 pixels, got {window}")
-    n_rows, n_columns = max(1, round(height / size)), max(1, round(width / size))
+    # Of a picture smaller than its blocks a pixel is one.
+    n_rows, n_columns = (min(max(1, round(n / size)), n) for n in (height, width))
     row_edges = np.linspace(0, height, n_rows + 1).astype(int)
     column_edges = np.linspace(0, width, n_columns + 1).astype(int)
     quantile = GROUND_PART if light else 1.0 - GROUND_PART

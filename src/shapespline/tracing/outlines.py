@@ -152,7 +152,13 @@ def trace_image(
         kept, selected = np.arange(len(kept)) == longest, kept
     else:
         selected = kept
-    lines = drawn_lines(field, found, places, kept)
+    drawn = drawn_lines(field, found, places, kept)
+    # Around a pixel that differs from the level by a rounding there is no outline.
+    lines = [line for line in drawn if min(len(line.points), len(line.level_line)) > 2]
+    if not lines:
+        raise DegenerateContourError(
+            "the outlines of the picture enclose nothing; choose another level or channel"
+        )
     specks = [places[found.loops[index]] for index in np.flatnonzero(~selected)]
     return _shape(lines, specks, field)
 

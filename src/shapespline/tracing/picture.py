@@ -79,9 +79,10 @@ def _upright(picture: Image.Image) -> Image.Image:
     """Decode, and turn the way the camera was held, as viewers do."""
     picture.load()
     try:
-        return ImageOps.exif_transpose(picture)
+        ImageOps.exif_transpose(picture, in_place=True)
     except Exception:  # unreadable EXIF data must not cost the picture
         return picture
+    return picture
 
 
 def _pixels(picture: Image.Image) -> NDArray[Any]:
@@ -99,7 +100,8 @@ def _pixels(picture: Image.Image) -> NDArray[Any]:
     is_grey = mode in ("1", "L", "LA", "La")
     has_alpha = mode in ("LA", "La", "PA", "RGBA", "RGBa") or "transparency" in picture.info
     wanted = ("LA" if has_alpha else "L") if is_grey else ("RGBA" if has_alpha else "RGB")
-    return np.asarray(picture.convert(wanted))
+    # A copy of a large picture is spared.
+    return np.asarray(picture if mode == wanted else picture.convert(wanted))
 
 
 def pixels_of(picture: Image.Image) -> NDArray[Any]:

@@ -203,7 +203,8 @@ def _is_coloured(pixels: NDArray[Any]) -> bool:
     """Whether enough pixels differ enough between their channels."""
     if pixels.ndim == 2:
         return False
-    spread = pixels.max(axis=2).astype(np.float32) - pixels.min(axis=2)
+    layers = [pixels[:, :, k] for k in range(pixels.shape[2])]
+    spread = np.maximum.reduce(layers) - np.minimum.reduce(layers)
     return bool((spread > COLOURED_SPREAD * full_scale(pixels)).mean() > COLOURED_PIXELS)
 
 

@@ -1,0 +1,1 @@
+"""The fuzzer: sound files of every format, damaged; each read with an eye on time and memory."""
