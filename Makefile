@@ -20,7 +20,7 @@ demo: $(READY)
 	@mkdir -p demo-output
 	$(BIN)/shapespline fit $(IMAGES)/mdi_leaf-maple_256.png --tolerance 0.5 -o demo-output/leaf.svg --plot demo-output/leaf.png
 	$(BIN)/shapespline fit $(IMAGES)/gameicons_jet-fighter_256.png --dpi 96 --tolerance 0.1 -o demo-output/jet.dxf
-	$(BIN)/shapespline fit $(IMAGES)/opencv_butterfly.jpg --tolerance 1.5 --min-area 120 -o demo-output/butterfly.svg --plot demo-output/butterfly.png
+	$(BIN)/shapespline fit $(IMAGES)/opencv_butterfly.jpg --tolerance 1.5 -o demo-output/butterfly.svg --plot demo-output/butterfly.png
 	$(BIN)/shapespline fit $(OUTLINES)/hand620_closed.csv -n 36 -o demo-output/hand.json --plot demo-output/hand.png
 	$(BIN)/shapespline paper examples/data/paper/leaf840.csv --length 2 -o demo-output/paper
 	@echo "Look into demo-output: SVG opens in a browser or in Inkscape, DXF in CAD; the pictures show the error."

@@ -86,7 +86,7 @@ def trace_image(
         Which outlines to return.
     min_area : float, optional
         Outlines that enclose less (square pixels) are left out. If not given, those that the noise
-        of the picture explains are, and a warning tells their number.
+        and the texture of the picture explain are, and a warning tells their number.
     invert : bool
         Take the ground for the shape and the shape for the ground.
     local : float or {"auto", "off"}
@@ -146,7 +146,7 @@ def trace_image(
     shares = level_shares(field, found)
     places = found.places(field.values.shape[0], shares)
     areas = loop_areas(places, found.loops)
-    kept = _kept(field, found, areas, min_area)
+    kept = _kept(field, found, places, areas, min_area)
     if contours == "longest":
         longest = max(np.flatnonzero(kept), key=lambda index: _length(places[found.loops[index]]))
         kept, selected = np.arange(len(kept)) == longest, kept
@@ -163,7 +163,9 @@ def trace_image(
     return _shape(lines, specks, field)
 
 
-def _kept(field: Field, found: Crossings, areas: FloatArray, min_area: float | None) -> BoolArray:
+def _kept(
+    field: Field, found: Crossings, places: FloatArray, areas: FloatArray, min_area: float | None
+) -> BoolArray:
     """Which outlines are more than specks, at least one; a warning tells of the others."""
     sizes = np.abs(areas)
     if min_area is not None:
@@ -174,7 +176,7 @@ def _kept(field: Field, found: Crossings, areas: FloatArray, min_area: float | N
                 f" {sizes.max(initial=0.0):.3g}; lower min_area or choose another level or channel"
             )
     else:
-        kept = ~is_speck(field, found, areas)
+        kept = ~is_speck(field, found, places, areas)
         if not kept.any():
             raise DegenerateContourError(
                 f"no outline stands out from the noise of the picture, {len(kept)} specks do not;"
@@ -189,7 +191,7 @@ def _kept(field: Field, found: Crossings, areas: FloatArray, min_area: float | N
         specks = "1 speck" if (~kept).sum() == 1 else f"{(~kept).sum()} specks"
         least = max(1, int(np.ceil(sizes[~kept].max())))
         warnings.warn(
-            f"{specks} below {least} square pixel{'s' * (least > 1)} left out as noise:"
+            f"{specks} below {least} square pixel{'s' * (least > 1)} left out as noise or texture:"
             " --min-area 0 (min_area=0) keeps them",
             PictureWarning,
             stacklevel=3,

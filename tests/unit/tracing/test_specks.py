@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from PIL import Image
+from scipy import ndimage
 from tests.support.rendering import coverage, dark, word
 
 import shapespline as ss
@@ -56,6 +57,35 @@ def test_grain_goes_and_is_counted():
     assert len(shape) < 8
     assert len(shape.left_out) == len(everything) - len(shape)
     assert everything.left_out == ()
+
+
+def test_texture_goes_and_small_letters_beside_it_stay():
+    """Random grain of all sizes that passes the level, and a word, in a picture with some noise."""
+    rng = np.random.default_rng(3)
+    letters = 255.0 - word("jäger: ii", 16)
+    clean = np.zeros((120, 160))
+    clean[70 : 70 + letters.shape[0], 20 : 20 + letters.shape[1]] = letters
+    grain = ndimage.gaussian_filter(rng.normal(0, 1, clean.shape), 0.7)
+    textured = clean.copy()
+    textured[10:50, 10:150] = 70 + 150 * grain[10:50, 10:150]
+    noisy = [
+        255 - np.rint(np.clip(image + rng.normal(0, 4, clean.shape), 0, 255)).astype(np.uint8)
+        for image in (clean, textured)
+    ]
+    alone = trace_image(noisy[0], level=127)
+    assert parts_and_holes(alone) == parts_and_holes(trace_image(word("jäger: ii", 16)))
+    with pytest.warns(PictureWarning, match="as noise or texture"):
+        shape = trace_image(noisy[1], level=127)
+    below = [contour for contour in shape if contour.points[:, 1].max() < 55]
+    assert len(below) == len(alone)
+    # Of the grain most is gone, and what is larger than grain has stayed.
+    everything = trace_image(noisy[1], level=127, min_area=0)
+    assert len(everything) > 200
+    assert len(shape) - len(below) < 0.15 * (len(everything) - len(below))
+    # The same grain as a clean drawing shows it is a drawing: a stipple.
+    stipple = np.zeros((60, 160), dtype=np.uint8)
+    stipple[5:55:5, 5:155:5] = 255
+    assert len(trace_image(stipple, polarity="light")) == 300
 
 
 def test_what_a_given_area_leaves_out_is_listed_too():
