@@ -12,6 +12,8 @@ from shapespline.cli.places import unnamed_stream
 from shapespline.cli.words import own_words
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline import Drawing, Fit
 
 
@@ -70,6 +72,7 @@ def _fit_record(fit: Fit) -> dict[str, Any]:
         "max_distance": fit.max_distance,
         "rms_distance": fit.rms_distance,
         "hausdorff_distance": fit.hausdorff_distance,
+        "source_distance": fit.source_distance,
         "tolerance": fit.tolerance,
         "kept": fit.kept,
         "status": fit.status.name,
@@ -86,8 +89,15 @@ def drawing_text(output: str, drawing: Drawing, seconds: float) -> str:
     curves = "1 curve" if len(fits) == 1 else f"{len(fits)} curves"
     return (
         f"{output}: {curves}, {points} points, data and curve within {farthest:.4g}"
-        f" of each other, {seconds:.2f} s"
+        f" of each other{_level_text(fits)}, {seconds:.2f} s"
     )
+
+
+def _level_text(fits: Sequence[Fit]) -> str:
+    """How far the curves are from the level lines of a picture, if that is what they come from."""
+    found = [fit.source_distance for fit in fits]
+    known = [distance for distance in found if distance is not None]
+    return f" ({max(known):.4g} from the level line)" if known else ""
 
 
 def drawing_remarks(drawing: Drawing) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 from shapespline.errors import InvalidInputError
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from shapespline.geometry import Box
     from shapespline.typing import ArrayLike, FloatArray
     from shapespline.values.arc import Arc
+    from shapespline.values.contour import Contour
     from shapespline.values.curve import BSplineCurve
     from shapespline.values.drawing import Drawing
     from shapespline.values.fit import Fit
@@ -26,6 +28,7 @@ class FitMethods:
     if TYPE_CHECKING:  # the fields that a fit has
         spline: BSplineCurve
         sections: tuple[Piece, ...]
+        contour: Contour
 
         @property
         def closed(self) -> bool:
@@ -41,6 +44,31 @@ class FitMethods:
     def length(self) -> float:
         """Arc length of the curve, data units; exact to rounding unless its speed nears zero."""
         return sum(part.length() for part in self.exact_parts)
+
+    @cached_property
+    def source_distance(self) -> float | None:
+        """Certified bound of the distance between the curve and the level line of a picture.
+
+        Data units, both ways; None where the data were not traced. The curve follows the contour,
+        which has the corners that pixels cut off, so this is larger than ``hausdorff_distance`` by
+        what the contour lies beside its level line.
+
+        Examples
+        --------
+        >>> import numpy as np, shapespline as ss
+        >>> picture = np.full((40, 40), 255, dtype=np.uint8)
+        >>> picture[10:30, 15:25] = 0
+        >>> (fit,) = ss.fit_shape(ss.trace(picture), tolerance=0.1)
+        >>> fit.hausdorff_distance <= 0.1, 0 < fit.source_distance <= 0.6
+        (True, True)
+        """
+        from shapespline.geometry import two_sided_distance
+
+        line = self.contour.level_line
+        if line is None:
+            return None
+        source = type(self.contour).silently(line, self.contour.closed)
+        return two_sided_distance(self.spline, source).hausdorff_distance
 
     @property
     def area(self) -> float:

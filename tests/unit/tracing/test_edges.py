@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 from tests.support.rendering import SAMPLES, coverage, dark, polygon, strip
 
+import shapespline as ss
 from shapespline.tracing import trace_image
 
 # Rounding to 8 bits moves each of some five pixels across an edge by 1/2 of 255, and counting
@@ -55,6 +57,20 @@ def test_corners_are_put_back():
     assert distance.max() <= 0.06
     cut = np.hypot(*(contour.level_line[:, None] - corners).transpose(2, 0, 1)).min(axis=0)
     assert cut.min() > 0.1
+
+
+def test_a_fit_tells_its_distance_to_the_level_line():
+    corners = np.array([(12.3, 10.7), (50.1, 15.2), (46.4, 48.8), (20.2, 40.6)])
+    (contour,) = trace_image(dark(coverage(polygon(corners), 60, 60)))
+    fit = ss.fit_curve(contour, tolerance=0.05)
+    assert fit.hausdorff_distance <= 0.05
+    line = ss.Contour(contour.level_line, closed=True).resampled(8000).points
+    curve = fit.curve(np.linspace(0, 1, 4001))
+    apart = max(cKDTree(line).query(curve)[0].max(), cKDTree(curve).query(line)[0].max())
+    # Samples are 0.04 apart at most, and the bound is tight to a thousandth.
+    assert apart - 0.04 <= fit.source_distance <= 1.01 * apart + 0.04
+    assert fit.source_distance > 0.1
+    assert ss.fit_curve(corners, closed=True, tolerance=0.05).source_distance is None
 
 
 def test_a_rounding_of_two_pixels_stays_round():
