@@ -50,6 +50,7 @@ EXPECTED_METHODS = {
     "values/fit.py": {"Fit.band": ("geometry", "confidence_band")},
     "values/fit_methods.py": {
         "FitMethods.area": ("geometry", "enclosed_area"),
+        "FitMethods.source_distance": ("geometry", "two_sided_distance"),
         "FitMethods.bounds": ("geometry", "bounds"),
         "FitMethods.contains": ("geometry", "contains"),
         "FitMethods.points": ("geometry", "evenly_spaced"),

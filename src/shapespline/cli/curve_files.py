@@ -35,7 +35,11 @@ class TraceFile:
             shape = ss.Shape(shape.left_out, frame=shape.frame, unit=shape.unit)
         ss.write(target, shape, **self.writing.given())
         n_points = sum(len(contour) for contour in shape)
-        outlines = "1 outline" if len(shape) == 1 else f"{len(shape)} outlines"
+        known = [width for width in shape.widths if width is not None]
+        noun = "stroke" if known else "outline"
+        outlines = f"1 {noun}" if len(shape) == 1 else f"{len(shape)} {noun}s"
+        if known:
+            outlines += f" {min(known):.3g} to {max(known):.3g} wide"
         return Report(
             str(source),
             text=f"{target}: {outlines}, {n_points} points",
@@ -43,7 +47,12 @@ class TraceFile:
                 "output": str(target),
                 "left_out": n_left_out,
                 "outlines": [
-                    {"closed": contour.closed, "points": len(contour)} for contour in shape
+                    {
+                        "closed": contour.closed,
+                        "points": len(contour),
+                        **({} if width is None else {"width": width}),
+                    }
+                    for contour, width in zip(shape, shape.widths, strict=True)
                 ],
                 "parents": list(shape.parents),
             },

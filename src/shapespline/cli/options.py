@@ -214,8 +214,15 @@ class Reading:
         parents, frame, colors = found.parents, found.frame, found.colors
         if isinstance(found, ss.Drawing):
             return ss.Drawing(found.fits, parents, frame, self.unit, colors=colors)
-        left_out = found.left_out
-        return ss.Shape(found.contours, parents, frame, self.unit, left_out=left_out, colors=colors)
+        return ss.Shape(
+            found.contours,
+            parents,
+            frame,
+            self.unit,
+            left_out=found.left_out,
+            colors=colors,
+            widths=found.widths,
+        )
 
     def outlines(self, path: Path, tolerance: float | str | None = None) -> Shape:
         """The outlines in the file; of a drawing those that it was fitted to.

@@ -82,7 +82,16 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
     if isinstance(value, Shape):
         left_out = [_contour(item, factor) for item in value.left_out]
         contours = [_contour(item, factor) for item in value]
-        return Shape(contours, value.parents, frame, unit, left_out=left_out, colors=value.colors)
+        widths = [None if width is None else factor * width for width in value.widths]
+        return Shape(
+            contours,
+            value.parents,
+            frame,
+            unit,
+            left_out=left_out,
+            colors=value.colors,
+            widths=widths,
+        )
     if isinstance(value, Outlines):
         return Outlines([_pieces(item, factor) for item in value.curves], frame, unit)
     fits = [_fit(item, factor) for item in value]

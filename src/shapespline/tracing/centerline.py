@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.errors import DegenerateContourError
+from shapespline.tracing.strokes import Branch, drawn_strokes
 from shapespline.values import Contour, Shape
 
 if TYPE_CHECKING:
@@ -24,18 +25,13 @@ if TYPE_CHECKING:
 
     from shapespline.typing import FloatArray
 
-# Pixels between points on the outline, and between points of a centre line.
-OUTLINE_STEP, LINE_STEP = 0.5, 1.0
+# Pixels between points on the outline.
+OUTLINE_STEP = 0.5
 # A branch with a loose end is a stroke if it is longer than the disc of its junction is wide, that
 # many radii: the corner of a square end is 1.41 away from where its two branches part.
 SPUR = 1.6
 # Junctions within this part of their radius are one: where two strokes cross there are two of them.
 CROSSING = 1.0
-# Within so many radii of a junction the axis follows neither stroke: a line takes its place.
-STRAIGHT = 1.5
-# A line ends where its discs become smaller than this part of what they are within the stroke; of
-# a tip that tapers so many radii at most are lost.
-FULL, TAPER = 0.9, 2.0
 
 
 def centerlines(shape: Shape) -> Shape:
@@ -50,8 +46,9 @@ def centerlines(shape: Shape) -> Shape:
     -------
     Shape
         Open contours from end to end, end to junction or junction to junction, which share their
-        junctions to the bit, and closed ones of rings; the longest first. A stroke's line ends
-        about half its width before its end.
+        junctions to the bit, and closed ones of rings; the longest first. A line ends where the
+        pen did: at a square end of the ink, in the middle of a round one. ``widths`` holds the
+        usual width of each stroke.
 
     Raises
     ------
@@ -61,33 +58,31 @@ def centerlines(shape: Shape) -> Shape:
     Examples
     --------
     >>> bar = Contour([(0, 0), (40, 0), (40, 4), (0, 4)], closed=True)
-    >>> (line,) = centerlines(Shape([bar]))
-    >>> line.closed, bool(np.abs(line.points[:, 1] - 2).max() < 1e-9), 34 < line.length < 38
-    (False, True, True)
+    >>> shape = centerlines(Shape([bar]))
+    >>> (line,) = shape
+    >>> line.closed, bool(np.abs(line.points[:, 1] - 2).max() < 1e-9), round(line.length, 9)
+    (False, True, 40.0)
+    >>> round(shape.widths[0], 6)
+    4.0
     """
-    graph = _medial_axis(shape)
+    outlines = [_sites(contour) for contour in shape]
+    graph, sites = _medial_axis(shape, outlines), np.concatenate(outlines)
     graph.prune()
     graph.merge_junctions()
-    found = [_resampled(path) for path in graph.paths()]
-    lines = [line for line in found if line is not None]
-    if not lines:
+    strokes = drawn_strokes(list(graph.branches()), graph.points, graph.radii, sites)
+    if not strokes:
         raise DegenerateContourError(
             "no stroke in the picture: what there is has no centre line longer than it is wide;"
             " trace its outline instead"
         )
-    lines.sort(key=lambda line: -line.length)
-    return Shape(lines, frame=shape.frame, unit=shape.unit)
-
-
-def _resampled(path: FloatArray) -> Contour | None:
-    """A path at even steps; None for one without extent. Its first and last points stay."""
-    steps = np.hypot(*np.diff(path, axis=0).T)
-    closed = bool((path[0] == path[-1]).all()) and len(path) > 3
-    if steps.sum() < LINE_STEP:
-        return None
-    count = max(8 if closed else 2, round(float(steps.sum()) / LINE_STEP) + 1)
-    contour = Contour.silently(path[:-1] if closed else path, closed)
-    return contour.resampled(count)
+    lines = [Contour.silently(stroke.points, stroke.closed) for stroke in strokes]
+    order = sorted(range(len(lines)), key=lambda index: -lines[index].length)
+    return Shape(
+        [lines[index] for index in order],
+        frame=shape.frame,
+        unit=shape.unit,
+        widths=[strokes[index].width for index in order],
+    )
 
 
 @dataclass
@@ -169,61 +164,48 @@ class _Graph:
                 self.connect(begin, other)
         self.points[begin] = 0.5 * (self.points[begin] + self.points[end])
 
-    def paths(self) -> Iterator[FloatArray]:
+    def branches(self) -> Iterator[Branch]:
         """Every branch between ends and junctions, then the rings."""
         done: set[tuple[int, int]] = set()
         for node in [n for n, others in self.links.items() if len(others) not in (0, 2)]:
             for other in sorted(self.links[node]):
                 if (node, other) not in done:
-                    path = self.walk(node, other)
-                    done |= {(path[0], path[1]), (path[-1], path[-2])}
-                    for a, b in pairwise(path):
-                        done |= {(a, b), (b, a)}
-                    yield self._straightened(path)
+                    yield self._branch(self.walk(node, other), done)
         for node, others in self.links.items():
             if len(others) == 2 and not any((node, other) in done for other in others):
-                path = self.walk(node, min(others))
-                for a, b in pairwise(path):
-                    done |= {(a, b), (b, a)}
-                yield self.points[path]
+                yield self._branch(self.walk(node, min(others)), done, is_ring=True)
 
-    def _straightened(self, path: list[int]) -> FloatArray:
-        """Points of a branch: straight near junctions, where strokes mix; no hook at loose ends."""
-        points, kept = self.points[path], np.ones(len(path), dtype=bool)
-        loose = [len(self.links[node]) == 1 for node in (path[0], path[-1])]
-        for end, is_loose in zip((0, -1), loose, strict=True):
-            off = np.hypot(*(points - points[end]).T)
-            if is_loose:
-                kept &= ~self._in_corner(path, off)
-            else:
-                kept &= off > STRAIGHT * self.radii[path[end]]
-        kept[[0, -1]] |= ~np.array(loose)
-        return points[kept]
-
-    def _in_corner(self, path: list[int], off: FloatArray) -> NDArray[np.bool_]:
-        """Nodes at a loose end where the discs shrink: the axis has turned into a corner there."""
-        radii = self.radii[path]
-        widest = float(radii[off <= 2 * TAPER * np.median(radii)].max())
-        far = off > TAPER * widest
-        full = far | (radii >= FULL * np.median(radii[off <= 2 * TAPER * widest]))
-        inner = float(off[full].min()) if full.any() else 0.0
-        return np.asarray(off < inner)
+    def _branch(
+        self, path: list[int], done: set[tuple[int, int]], *, is_ring: bool = False
+    ) -> Branch:
+        for a, b in pairwise(path):
+            done |= {(a, b), (b, a)}
+        begin, end = (node if len(self.links[node]) > 2 else -1 for node in (path[0], path[-1]))
+        return Branch(self.points[path], self.radii[path], (begin, end), is_ring)
 
 
-def _medial_axis(shape: Shape) -> _Graph:
+def _medial_axis(shape: Shape, outlines: list[FloatArray]) -> _Graph:
     """Voronoi edges between points of the outlines, as far as they lie inside."""
     from scipy.spatial import Voronoi
 
-    sites = np.concatenate([_sites(contour) for contour in shape])
+    sites = np.concatenate(outlines)
+    ahead = np.arange(1, len(sites) + 1)
+    ends = np.cumsum([len(points) for points in outlines])
+    ahead[ends - 1] = np.concatenate([[0], ends[:-1]])
     diagram = Voronoi(sites)
+    # The edge between two neighbours on an outline passes through it, or ends in a corner.
+    beside = np.asarray(diagram.ridge_points)
+    across = (ahead[beside[:, 0]] == beside[:, 1]) | (ahead[beside[:, 1]] == beside[:, 0])
     inside = _inside(diagram.vertices, shape)
     pairs = np.asarray(diagram.ridge_vertices)
-    kept = (pairs >= 0).all(axis=1) & inside[pairs[:, 0]] & inside[pairs[:, 1]]
+    kept = ~across & (pairs >= 0).all(axis=1) & inside[pairs[:, 0]] & inside[pairs[:, 1]]
     radii = np.full(len(diagram.vertices), np.inf)
-    of = np.asarray(diagram.ridge_points)[:, 0]
+    of = beside[:, 0]
     for end in (0, 1):
         found = np.hypot(*(diagram.vertices[pairs[kept, end]] - sites[of[kept]]).T)
         np.minimum.at(radii, pairs[kept, end], found)
+    # A disc that touches a straight side passes half a step beside two of its points.
+    radii = np.sqrt(np.maximum(radii**2 - (0.5 * OUTLINE_STEP) ** 2, 0.0))
     graph = _Graph(diagram.vertices.copy(), radii)
     for a, b in pairs[kept].tolist():
         graph.connect(a, b)

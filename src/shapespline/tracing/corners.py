@@ -37,6 +37,8 @@ DISTURBED, SQUARE = 0.75, 0.5
 # is not so many times worse.
 SMOOTH, TIE, TIE_FACTOR = 0.05, 0.004, 1.5
 SAMPLES, ROUNDS = 9, 4
+# Sides that are still farther apart (pixels) where they are nearest do not meet (TRC-13).
+MEET = 0.01
 _SHARES = np.linspace(0.0, 1.0, SAMPLES)
 _POWERS = _SHARES[:, None] ** np.arange(3)
 # Coefficients of least squares, those beyond the degree nothing.
@@ -120,13 +122,15 @@ def _corners(points: FloatArray, line: FloatArray) -> _Found:
             far = np.minimum(SIDE, room - near)
             sides.append(_side(points, s, at, near, far, sign))
             wide = np.minimum(wide, far - near)
-        meets, turn, off = _meeting(*(side[0] for side in sides))
+        meets, turn, off, apart = _meeting(*(side[0] for side in sides))
         at = at + np.clip(off, -SAME_CORNER, SAME_CORNER)
         in_order = np.argsort(at)
         if (in_order != np.arange(len(at))).any():
             return _NONE
     cut_off = np.interp(np.degrees(np.pi - turn), ANGLES, CUT_OFF)
     good = sides[0][1] & sides[1][1] & (wide >= SHORTEST_SIDE) & (turn > LEAST_TURN)
+    # The sides of a stroke's round end run side by side and meet nowhere.
+    good &= apart <= MEET
     good &= _distance(meets, line) <= cut_off
     # Edges along the rows and columns meet on whole numbers, but for a rounding.
     meets = np.round(meets, DIGITS)
@@ -200,8 +204,10 @@ def _fitted(seen: FloatArray, degree: int) -> tuple[FloatArray, FloatArray]:
     return fitted, np.sqrt(((_POWERS @ fitted - seen) ** 2).sum(axis=2).mean(axis=1))
 
 
-def _meeting(first: FloatArray, second: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Where pairs of sides meet, by Newton's method; the turn there; how far along that is."""
+def _meeting(
+    first: FloatArray, second: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Where pairs of sides meet, by Newton's method; turn; how far along; how far apart still."""
     t = np.zeros((len(first), 2))
 
     def value(side: FloatArray, u: FloatArray) -> FloatArray:
@@ -218,9 +224,10 @@ def _meeting(first: FloatArray, second: FloatArray) -> tuple[FloatArray, FloatAr
         t[:, 0] += (b[:, 0] * gap[:, 1] - b[:, 1] * gap[:, 0]) / det
         t[:, 1] += (a[:, 0] * gap[:, 1] - a[:, 1] * gap[:, 0]) / det
         t = np.clip(t, -SIDE, SIDE)
-    meets = 0.5 * (value(first, t[:, 0]) + value(second, t[:, 1]))
+    ends = value(first, t[:, 0]), value(second, t[:, 1])
+    meets, apart = 0.5 * (ends[0] + ends[1]), np.hypot(*(ends[0] - ends[1]).T)
     turn = np.abs(_turn(-slope(first, t[:, 0]), slope(second, t[:, 1])))
-    return meets, turn, 0.5 * (t[:, 1] - t[:, 0])
+    return meets, turn, 0.5 * (t[:, 1] - t[:, 0]), apart
 
 
 def _distance(points: FloatArray, line: FloatArray) -> FloatArray:

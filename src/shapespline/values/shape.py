@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from shapespline.values.view_box import ViewBox
 
+from shapespline.validation import is_number
 from shapespline.values.contour import Contour, checked_contour
 from shapespline.values.equality import ByValue
 from shapespline.values.shown import Shown
@@ -87,6 +88,27 @@ def checked_colors(colors: Sequence[str | None] | None, count: int) -> tuple[str
     return colors
 
 
+def checked_widths(widths: Sequence[float | None] | None, count: int) -> tuple[float | None, ...]:
+    """For each of ``count`` items the width of its stroke, None for none (the default).
+
+    Raises
+    ------
+    InvalidInputError
+        If there are not as many, or one is no positive number.
+    """
+    if widths is None:
+        return (None,) * count
+    widths = tuple(widths)
+    if len(widths) != count:
+        raise InvalidInputError(
+            f"widths must name one width for each: expected {count}, got {len(widths)}"
+        )
+    for width in widths:
+        if width is not None and not (is_number(width) and 0 < width < float("inf")):
+            raise InvalidInputError(f"widths must be None or positive numbers, got {width!r}")
+    return tuple(None if width is None else float(width) for width in widths)
+
+
 @dataclass(frozen=True, eq=False, init=False)
 class Shape(ByValue, Shown):
     """What a file holds: contours and which lies directly inside which.
@@ -105,6 +127,9 @@ class Shape(ByValue, Shown):
     colors : sequence of str or None, optional
         For each contour the colour of the area within it, as #rrggbb; None, the default, for a
         hole and where no colour is known.
+    widths : sequence of float or None, optional
+        For each contour that is the centre line of a stroke, how wide the stroke is, in the unit of
+        the coordinates; None, the default, for others.
 
     Examples
     --------
@@ -121,6 +146,7 @@ class Shape(ByValue, Shown):
     unit: str | None
     left_out: tuple[Contour, ...] = field(repr=False)
     colors: tuple[str | None, ...] = field(repr=False)
+    widths: tuple[float | None, ...] = field(repr=False)
 
     def __init__(
         self,
@@ -131,6 +157,7 @@ class Shape(ByValue, Shown):
         *,
         left_out: Sequence[Contour] = (),
         colors: Sequence[str | None] | None = None,
+        widths: Sequence[float | None] | None = None,
     ) -> None:
         contours, left_out = tuple(contours), tuple(left_out)
         if not contours:
@@ -145,6 +172,7 @@ class Shape(ByValue, Shown):
         object.__setattr__(self, "unit", checked_unit(unit))
         object.__setattr__(self, "left_out", left_out)
         object.__setattr__(self, "colors", checked_colors(colors, len(contours)))
+        object.__setattr__(self, "widths", checked_widths(widths, len(contours)))
 
     def __len__(self) -> int:
         return len(self.contours)

@@ -59,6 +59,19 @@ def test_corners_are_put_back():
     assert cut.min() > 0.1
 
 
+@pytest.mark.parametrize(("length", "half"), [(30, 9), (33, 12)])
+def test_the_end_of_a_stroke_of_two_pixels_stays(length, half):
+    """Its sides meet nowhere: they were taken for a corner of 180 degrees, 2.5 pixels back."""
+    image = np.full((length + 8, 2 * half + 8), 255, dtype=np.uint8)
+    image[3:5, 4 : 4 + 2 * half] = 0
+    image[4 : 4 + length, 3 + half : 5 + half] = 0
+    image[4 + length, 3 + half : 5 + half] = 48
+    image[3:5, [3, 4 + 2 * half]] = 48
+    (contour,) = trace_image(image)
+    # Of the last row 48 of 255 is ground.
+    assert contour.points[:, 1].min() == pytest.approx(3 + 48 / 255, abs=0.02)
+
+
 def test_a_fit_tells_its_distance_to_the_level_line():
     corners = np.array([(12.3, 10.7), (50.1, 15.2), (46.4, 48.8), (20.2, 40.6)])
     (contour,) = trace_image(dark(coverage(polygon(corners), 60, 60)))

@@ -46,3 +46,12 @@ def test_bad_nesting(n, parents, message):
 def test_a_shape_holds_contours_only():
     with pytest.raises(InvalidInputError, match="contours must"):
         Shape([on_circle(5)])
+
+
+def test_widths_of_strokes():
+    line = Contour([(0, 0), (4, 0)])
+    assert Shape([line]).widths == (None,)
+    assert Shape([line, line], widths=[2, None]).widths == (2.0, None)
+    for widths in ([1.0], [1.0, 0.0], ["2", None], [float("nan"), 1.0]):
+        with pytest.raises(InvalidInputError, match="widths must"):
+            Shape([line, line], widths=widths)
