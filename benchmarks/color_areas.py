@@ -1,19 +1,26 @@
-"""Logos of few colours, drawn, traced in colours, and drawn again from the file.
+"""Pictures of few colours traced in colours, and drawn again from the file.
 
-    python -m benchmarks.color_areas              a line for each logo
+    python -m benchmarks.color_areas              a line for each logo and illustration
     python -m benchmarks.color_areas -o DIR       and what was read in the files, as pictures
 
-vtracer (PyPI), where it is installed, gets the same pictures with its own options. Files are drawn
-by the same program, sixteen samples a pixel on magenta: colour distance is the mean absolute
-difference to the picture over the channels, of 255; gaps are samples that nothing covers, of a
-million.
+vtracer (PyPI) and potrace (the layers of our palette, one run for each colour), where they are
+installed, get the same pictures with their own options. Files are drawn by the same program,
+sixteen samples a pixel on magenta: colour distance is the mean absolute difference to the picture
+over the channels, of 255; gaps are samples that nothing covers, of a million. Seams are what a
+browser (chromium, where it is installed) shows at four times the size: pixels, of a million, in
+which the ground of the page can be seen.
 """
 
 from __future__ import annotations
 
 import argparse
+import io
+import re
+import shutil
+import subprocess
 import tempfile
 import time
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -23,14 +30,18 @@ import svgelements
 from PIL import Image, ImageChops, ImageDraw, ImageFont
 
 import shapespline as ss
+from shapespline.tracing.palette import palette_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
 SIZE, LARGER, SAMPLES = (320, 200), 8, 4
 TOLERANCE = 0.3
+# How much larger a browser draws, and the difference, of 255, that can be seen.
+ZOOM, VISIBLE = 4, 8
+LARGE = Path(__file__).parent.parent.parent / "shared" / "data" / "photos"
 PALETTES = (
     ("#ffffff", "#145aa0", "#dc1e28", "#ffdc00"),
     ("#0b3d2e", "#f4f1de", "#e07a5f", "#81b29a"),
@@ -47,6 +58,7 @@ class Result(NamedTuple):
     n_points: int
     distance: float
     gaps: float
+    seams: float
     seconds: float
 
 
@@ -70,13 +82,68 @@ def logos() -> Iterator[tuple[str, Image.Image]]:
             yield name, image.resize(SIZE, Image.Resampling.BOX)
 
 
-def drawn(path: Path) -> tuple[NDArray[np.uint8], float, int]:
+def illustrations() -> Iterator[tuple[str, Image.Image]]:
+    """Three drawings with shades, from the corpus."""
+    for name in ("opencv_HappyFish", "opencv_LinuxLogo", "skimage_logo"):
+        path = LARGE / f"{name}.png"
+        if path.exists():
+            flat = Image.open(path).convert("RGBA")
+            ground = Image.new("RGBA", flat.size, "white")
+            yield name, Image.alpha_composite(ground, flat).convert("RGB")
+
+
+def seams(path: Path, size: tuple[int, int]) -> float:
+    """Pixels of a million that show the ground of the page; NaN without a browser."""
+    browser = shutil.which("chromium")
+    if browser is None:
+        return float("nan")
+    seen = []
+    with tempfile.TemporaryDirectory() as folder:
+        page, shot = Path(folder) / "page.html", Path(folder) / "shot.png"
+        width, height = (ZOOM * side for side in size)
+        for ground in ("#ff00ff", "#00ff00"):
+            page.write_text(
+                f'<body style="margin:0;background:{ground}"><img src="{path.as_uri()}"'
+                f' width="{width}" height="{height}" style="display:block">'
+            )
+            subprocess.run(
+                [browser, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+                 f"--screenshot={shot}", f"--window-size={width},{height}", page.as_uri()],
+                check=True, capture_output=True,
+            )  # fmt: skip
+            seen.append(np.asarray(Image.open(shot).convert("RGB")).astype(int))
+    return 1e6 * float((np.abs(seen[0] - seen[1]).max(axis=2) > VISIBLE).mean())
+
+
+def by_potrace(picture: Image.Image, path: Path) -> None:
+    """Each colour of our palette by itself, the most frequent first."""
+    palette = palette_of(np.asarray(picture), "auto")
+    width, height = picture.size
+    parts = []
+    for index in np.argsort(-np.bincount(palette.labels.ravel())):
+        bitmap = io.BytesIO()
+        Image.fromarray(palette.labels != index).save(bitmap, format="PPM")
+        text = subprocess.run(
+            ["potrace", "-b", "svg", "--flat", "-o", "-", "-"],
+            input=bitmap.getvalue(), capture_output=True, check=True,
+        ).stdout.decode()  # fmt: skip
+        color = "#" + "".join(f"{round(value):02x}" for value in palette.colors[index])
+        inner = text[text.index("<g transform") : text.index("</svg>")]
+        parts.append(inner.replace("#000000", color))
+    path.write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}px" height="{height}px"'
+        f' viewBox="0 0 {width} {height}">{"".join(parts)}</svg>'
+    )
+
+
+def drawn(path: Path, pixels: tuple[int, int]) -> tuple[NDArray[np.uint8], float, int]:
     """The picture in an SVG file, samples that nothing covers, and the points stored."""
     scale = SAMPLES
-    size = (SIZE[0] * scale, SIZE[1] * scale)
+    size = (pixels[0] * scale, pixels[1] * scale)
     canvas, covered = Image.new("RGB", size, "#ff00ff"), Image.new("1", size)
     n_points = 0
-    for element in svgelements.SVG.parse(str(path), reify=True, ppi=96).elements():
+    text = re.sub("<use [^>]*>", "", path.read_text())  # our underlay, which areas cover
+    for element in svgelements.SVG.parse(io.StringIO(text), reify=True, ppi=96).elements():
         if not isinstance(element, svgelements.Path) or element.fill.value is None:
             continue
         mask = Image.new("1", size)
@@ -105,9 +172,10 @@ def drawn(path: Path) -> tuple[NDArray[np.uint8], float, int]:
 
 def result(path: Path, picture: Image.Image, seconds: float) -> tuple[Result, NDArray[np.uint8]]:
     """What a file holds, against the picture."""
-    seen, bare, n_points = drawn(path)
+    seen, bare, n_points = drawn(path, picture.size)
     distance = float(np.abs(seen.astype(float) - np.asarray(picture)).mean())
-    return Result(path.stat().st_size, n_points, distance, bare, seconds), seen
+    own = Result(path.stat().st_size, n_points, distance, bare, seams(path, picture.size), seconds)
+    return own, seen
 
 
 def main() -> None:
@@ -119,33 +187,51 @@ def main() -> None:
         import vtracer
     except ImportError:
         vtracer = None
-    print("| logo | colours | ours: bytes | points | distance | gaps | s"
-          " | vtracer: bytes | points | distance | gaps | s |")  # fmt: skip
-    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
-    every = []
-    with tempfile.TemporaryDirectory() as folder:
-        source, target, other = (Path(folder) / name for name in ("in.png", "a.svg", "b.svg"))
-        for index, (name, picture) in enumerate(logos()):
-            picture.save(source)
-            began = time.perf_counter()
-            shape = ss.read(source, colors="auto")
-            fitted = ss.fit_shape(shape, tolerance=TOLERANCE, shared_boundaries=True)
-            ss.write(target, fitted)
-            ours, seen = result(target, picture, time.perf_counter() - began)
-            row = [ours]
-            if vtracer is not None:
+    tracers = [
+        "ours",
+        *(["vtracer"] if vtracer else []),
+        *(["potrace"] if shutil.which("potrace") else []),
+    ]
+    print("| picture | colours | " + " | ".join(
+        f"{name}: bytes | points | distance | gaps | seams | s" for name in tracers) + " |")  # fmt: skip
+    print("|---|---" + 6 * len(tracers) * "|---" + "|")
+    for group in (logos, illustrations):
+        every = []
+        with tempfile.TemporaryDirectory() as folder:
+            source, target, other = (Path(folder) / name for name in ("in.png", "a.svg", "b.svg"))
+            for index, (name, picture) in enumerate(group()):
+                picture.save(source)
                 began = time.perf_counter()
-                vtracer.convert_image_to_svg_py(str(source), str(other))
-                row.append(result(other, picture, time.perf_counter() - began)[0])
-            every.append(row)
-            if chosen.output is not None:
-                Image.fromarray(seen).save(chosen.output / f"{index}.png")
-            count = len({color for color in shape.colors if color})
-            print(f"| {name} | {count} | " + " | ".join(
-                f"{r.n_bytes} | {r.n_points} | {r.distance:.2f} | {r.gaps:.0f} | {r.seconds:.2f}"
-                for r in row) + " |")  # fmt: skip
-    means = np.mean(every, axis=0)
-    print("| mean | | " + " | ".join(" | ".join(f"{v:.2f}" for v in own) for own in means) + " |")
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", ss.PictureWarning)
+                    shape = ss.read(source, colors="auto")
+                fitted = ss.fit_shape(shape, tolerance=TOLERANCE, shared_boundaries=True)
+                ss.write(target, fitted)
+                ours, seen = result(target, picture, time.perf_counter() - began)
+                row = [ours]
+                for tracer in tracers[1:]:
+                    began = time.perf_counter()
+                    if tracer == "vtracer":
+                        vtracer.convert_image_to_svg_py(str(source), str(other))
+                    else:
+                        by_potrace(picture, other)
+                    row.append(result(other, picture, time.perf_counter() - began)[0])
+                every.append(row)
+                if chosen.output is not None:
+                    Image.fromarray(seen).save(chosen.output / f"{group.__name__}_{index}.png")
+                count = len({color for color in shape.colors if color})
+                print(f"| {name} | {count} | {_cells(row)} |", flush=True)
+        if every:
+            means = [Result(*column) for column in np.mean(every, axis=0)]
+            print(f"| mean of {group.__name__} | | {_cells(means)} |")
+
+
+def _cells(row: Sequence[Result]) -> str:
+    return " | ".join(
+        f"{r.n_bytes:.0f} | {r.n_points:.0f} | {r.distance:.2f} | {r.gaps:.0f} | {r.seams:.0f}"
+        f" | {r.seconds:.2f}"
+        for r in row
+    )
 
 
 if __name__ == "__main__":

@@ -25,6 +25,10 @@ CUBIC_TOLERANCE = 1e-6
 EPS = float(np.finfo(np.float64).eps)
 
 
+# Areas tile the view box if they leave no more than this part of it, or lie over each other by it.
+TILED = 1e-6
+
+
 def groups(drawing: Drawing) -> list[list[int]]:
     """Indices of the fits that are filled together: an outline and its holes, or a curve alone."""
     found: dict[int, list[int]] = {}
@@ -38,6 +42,20 @@ def groups(drawing: Drawing) -> list[list[int]]:
     for parent, index in holes:
         found[parent].append(index)
     return list(found.values())
+
+
+def is_tiled(drawing: Drawing) -> bool:
+    """Whether coloured areas fill the view box, so that what is drawn beneath them stays hidden."""
+    if drawing.frame is None or not any(drawing.colors):
+        return False
+    covered = 0.0
+    for group in groups(drawing):
+        if drawing.colors[group[0]] is None or not drawing.fits[group[0]].closed:
+            return False
+        sizes = [drawing.fits[index].area for index in group]
+        covered += sizes[0] - sum(sizes[1:])
+    whole = drawing.frame.width * drawing.frame.height
+    return abs(covered - whole) <= TILED * whole
 
 
 def as_cubics(fit: Fit) -> FloatArray:

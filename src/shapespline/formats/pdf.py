@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.formats.cubics import as_cubics, groups, is_straight, turning_points
+from shapespline.formats.cubics import as_cubics, groups, is_straight, is_tiled, turning_points
 from shapespline.units import MILLIMETRES
 
 if TYPE_CHECKING:
@@ -46,17 +46,23 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
     corner = low - MARGIN * longer
     width, height = scale * (high - low + 2 * MARGIN * longer)
     lines = [f"{_number(STROKE * scale * longer)} w 1 j 1 J"]
+    paths = []
     for group in groups(drawing):
         filled = fill and drawing.fits[group[0]].closed
-        color = drawing.colors[group[0]]
-        if filled and color is not None:
-            lines.append(
-                " ".join(_number(int(color[k : k + 2], 16) / 255) for k in (1, 3, 5)) + " rg"
-            )
-        lines += [
+        color = drawing.colors[group[0]] if filled else None
+        data = "\n".join(
             _path(scale * (cubics[index] - corner), drawing.fits[index].closed) for index in group
-        ]
-        lines.append("f*" if filled else "S")
+        )
+        paths.append((color, data, "f*" if filled else "S"))
+    if fill and is_tiled(drawing):
+        # Beneath the areas their outlines: viewers smooth each area by itself, and what lies
+        # beneath shows on the border of two. Nothing of them shows beside the picture.
+        box = " ".join(map(_number, [*(scale * (low - corner)), *(scale * (high - low))]))
+        lines += ["q", f"{box} re W n"]
+        lines += [f"{_color(color)} RG\n{data}\nS" for color, data, _ in paths if color]
+        lines.append("Q")
+    for color, data, paint in paths:
+        lines += [data, paint] if color is None else [f"{_color(color)} rg", data, paint]
     content = zlib.compress("\n".join(lines).encode("ascii"), 9)
     box = f"[0 0 {_number(width)} {_number(height)}]"
     return _file(
@@ -70,6 +76,10 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
             + b"\nendstream",
         ]
     )
+
+
+def _color(color: str) -> str:
+    return " ".join(_number(int(color[k : k + 2], 16) / 255) for k in (1, 3, 5))
 
 
 def _points_a_unit(unit: str | None) -> float | None:

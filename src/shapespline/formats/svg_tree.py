@@ -32,6 +32,8 @@ NUMBER = re.compile(r"\d+")
 PIXEL_MILLIMETRES = 25.4 / 96
 LENGTH = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(px|mm|cm|in|pt|pc|Q)?\s*")
 LENGTHS = ("x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "x1", "y1", "x2", "y2")
+# Class of what our writer draws beneath areas that share their borders.
+UNDERLAY = "underlay"
 HREFS = ("href", "{http://www.w3.org/1999/xlink}href")
 NAMED = {"text": "text", "image": "pictures", "foreignObject": "foreign content"}
 NOT_DRAWN = ("clipPath", "mask", "pattern", "marker", "linearGradient", "radialGradient", "filter",
@@ -169,6 +171,8 @@ def _plain(
             # Style sheets may stand there.
             result.extend(copy.deepcopy(style) for style in child.iter() if _tag(style) == "style")
         elif tag == "use":
+            if child.get("class") == UNDERLAY:  # of the areas that are drawn above it
+                continue
             target = next((child.get(name) for name in HREFS if child.get(name)), "") or ""
             found = ids.get(target[1:]) if target.startswith("#") else None
             if found is None or not target[1:]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections import Counter
 
 import ezdxf
@@ -130,6 +131,27 @@ def test_numbers_of_colours_that_cannot_be(colors, complaint):
 def test_one_colour_has_no_border():
     with pytest.raises(DegenerateContourError, match="one colour only"):
         trace_colors(np.full((9, 9, 3), 77, dtype=np.uint8))
+
+
+def test_no_ground_shows_between_areas_in_viewers_that_smooth_each_by_itself(shape, tmp_path):
+    """Beneath areas that tile the picture lie their outlines, and nowhere else; none is read."""
+    output = tmp_path / "areas.svg"
+    ss.write(output, shape)
+    text = output.read_text()
+    assert text.count("<use ") == 1
+    assert text.index("<use ") < text.index("<path")
+    assert text.count("<path") == sum(color is not None for color in shape.colors)
+    assert all(f'fill="{c}" fill-rule="evenodd" stroke="{c}"' in text for c in COLORS)
+    assert len(ss.read(output)) == len(shape)
+    ss.write(tmp_path / "areas.pdf", shape)
+    content = zlib.decompress((tmp_path / "areas.pdf").read_bytes().split(b"stream\n")[1])
+    clipped = content.split(b" re W n\n")[1].split(b"\nQ\n")[0]
+    assert clipped.count(b"S") == text.count("<path")
+    assert clipped.count(b"f*") == 0
+    # One area alone has nothing beside it that could hide an outline.
+    alone = shape.colors.index("#ffdc00")
+    ss.write(output, ss.Shape([shape.contours[alone]], frame=shape.frame, colors=["#ffdc00"]))
+    assert "stroke" not in output.read_text()
 
 
 @pytest.fixture
