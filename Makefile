@@ -54,6 +54,7 @@ figures: $(READY)
 	$(BIN)/python -m benchmarks.readme_figures
 	$(BIN)/python -m benchmarks.howto_figures
 	$(BIN)/python -m benchmarks.picture_options
+	$(BIN)/python -m benchmarks.picture_peers
 	$(BIN)/python -m benchmarks.engine_figures
 	$(BIN)/python scripts/rooms_picture.py
 

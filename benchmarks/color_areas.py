@@ -187,13 +187,11 @@ def main() -> None:
         import vtracer
     except ImportError:
         vtracer = None
-    tracers = [
-        "ours",
-        *(["vtracer"] if vtracer else []),
-        *(["potrace"] if shutil.which("potrace") else []),
-    ]
-    print("| picture | colours | " + " | ".join(
-        f"{name}: bytes | points | distance | gaps | seams | s" for name in tracers) + " |")  # fmt: skip
+    tracers = ["ours"]
+    tracers += ["vtracer"] if vtracer else []
+    tracers += ["potrace"] if shutil.which("potrace") else []
+    columns = "bytes | points | distance | gaps | seams | s"
+    print("| picture | colours | " + " | ".join(f"{name}: {columns}" for name in tracers) + " |")
     print("|---|---" + 6 * len(tracers) * "|---" + "|")
     for group in (logos, illustrations):
         every = []

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import matplotlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
+from scipy.ndimage import gaussian_filter
 
 import shapespline as ss
 from benchmarks.howto_figures import ORANGE, canvas, save
@@ -35,6 +36,21 @@ def words(ink: str = "#000000", ground: str = "#ffffff") -> Image.Image:
     return image.resize(SIZE, Image.Resampling.BOX)
 
 
+def touching() -> NDArray[np.uint8]:
+    """Two discs joined by what a blur leaves between them."""
+    y, x = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    discs = np.minimum(np.hypot(x - 82, y - 65), np.hypot(x - 158, y - 65)) <= 36
+    return np.rint(255 * (1 - gaussian_filter(discs.astype(float), 4))).astype(np.uint8)
+
+
+def shadowed() -> NDArray[np.uint8]:
+    """Words half of which lie in a bluish shadow."""
+    image = np.asarray(words().convert("L"))[:, :, None] * np.ones(3)
+    y, x = np.mgrid[: SIZE[1], : SIZE[0]]
+    image[x + 0.5 * y > 150] *= (0.35, 0.4, 0.9)
+    return np.rint(image).astype(np.uint8)
+
+
 def panels() -> list[tuple[str, NDArray[Any], dict[str, Any]]]:
     """Titles, pictures and options."""
     rng = np.random.default_rng(1)
@@ -56,6 +72,10 @@ def panels() -> list[tuple[str, NDArray[Any], dict[str, Any]]]:
         ("grain, nothing said", grain, {}),
         ("grain, --blur 1.2", grain, {"blur": 1.2}),
         ("--colors auto", plain, {"colors": "auto"}),
+        ("touching, nothing said", touching(), {}),
+        ("touching, --level 60", touching(), {"level": 60}),
+        ("bluish shadow, nothing said", shadowed(), {}),
+        ("bluish shadow, --channel blue", shadowed(), {"channel": "blue"}),
     ]
 
 
@@ -79,7 +99,7 @@ def show(axes: Axes, title: str, image: NDArray[Any], options: dict[str, Any]) -
         if color:
             axes.fill(*contour.polyline.T, color=color)
         axes.plot(*contour.polyline.T, color=ORANGE, linewidth=1.0)
-    note = f"\n{len(shape)} outlines"
+    note = f"\n{len(shape)} outline{'s' * (len(shape) != 1)}"
     if shape.left_out:
         note += f", {len(shape.left_out)} left out (blue)"
     axes.set_title(title + note, fontsize=13)

@@ -3,6 +3,7 @@
     python -m benchmarks.traced                     anti-aliased, 256 pixels
     python -m benchmarks.traced --one-bit           the same cut to black and white first
     python -m benchmarks.traced --tolerance 0.3     in pixels; none means no parameter at all
+    python -m benchmarks.traced --pixels 64         another size: from larger pictures, by means
     python -m benchmarks.traced --every 4           each fourth picture
 
 Distances in pixels, over samples a twentieth of a pixel apart, both ways. Left out is what a
@@ -37,6 +38,7 @@ ROOT = Path(__file__).parent.parent
 LARGE = ROOT.parent / "shared" / "data"
 OWN = ROOT / "examples" / "data" / "images"
 PIXELS, FRAME = 256, 512
+SIZES = (64, 128, 256, 512, 1024, 2048)
 STEP = 0.05
 # Pixels around a corner of the true outline that do not count, and the turn that makes a corner.
 CORNER, TURN = 1.0, np.radians(20.0)
@@ -72,14 +74,14 @@ def bezier(points: Array, step: float) -> Array:
     return work[0]
 
 
-def truth(path: Path) -> Truth:
-    """The outline of a .truth.json, scaled to the picture."""
+def truth(path: Path, pixels: int = PIXELS) -> Truth:
+    """The outline of a .truth.json, scaled to a picture of so many pixels."""
     held = json.loads(path.read_text())
-    scale = PIXELS / FRAME
+    scale = pixels / FRAME
     loops, corners, n_points = [], [], 0
     for contour in held["contours"]:
         segments = [
-            np.array([(scale * x, PIXELS - scale * y) for x, y in segment]) for segment in contour
+            np.array([(scale * x, pixels - scale * y) for x, y in segment]) for segment in contour
         ]
         segments = [s for s in segments if np.hypot(*np.diff(s, axis=0).T).sum() > 1e-9]
         n_points += sum(len(segment) - 1 for segment in segments)
@@ -189,7 +191,7 @@ def potrace(picture: Image.Image, outline: Truth) -> Result | None:
     seconds = time.perf_counter() - began
     samples, n_points = [], 0
     drawing = svgelements.SVG.parse(io.StringIO(done.stdout.decode()), reify=True, ppi=72)
-    scale = PIXELS / float(drawing.width)
+    scale = picture.width / float(drawing.width)
     for path in drawing.elements(lambda element: isinstance(element, svgelements.Path)):
         for segment in path:
             if isinstance(segment, svgelements.Line | svgelements.Close):
@@ -198,40 +200,53 @@ def potrace(picture: Image.Image, outline: Truth) -> Result | None:
                 control = [segment.start, segment.control1, segment.control2, segment.end]
             else:
                 continue
-            points = np.array([(scale * p.x, PIXELS - scale * p.y) for p in control])
+            points = np.array([(scale * p.x, picture.height - scale * p.y) for p in control])
             if np.ptp(points, axis=0).any():
                 n_points += len(points) - 1
                 samples.append(bezier(points, STEP))
     return Result(n_points, *distances(np.concatenate(samples), outline), seconds)
 
 
-def pictures() -> list[tuple[Path, Path]]:
-    """Pairs of truth and picture."""
+def pictures(pixels: int = PIXELS) -> list[tuple[Path, Image.Image]]:
+    """Truths, and pictures of so many pixels: the smallest that are at least as large, reduced.
+
+    The mean over whole pixels is what a drawing covers of the larger one: nothing is resampled.
+    """
     folders = [LARGE / "glyphs", LARGE / "icons"] if LARGE.exists() else [OWN]
-    pairs = []
+    found = []
     for folder in folders:
         for path in sorted(folder.glob("*.truth.json")):
-            picture = path.with_name(path.name.replace(".truth.json", f"_{PIXELS}.png"))
-            if picture.exists():
-                pairs.append((path, picture))
-    return pairs
+            for size in SIZES[SIZES.index(pixels) :]:
+                name = path.with_name(path.name.replace(".truth.json", f"_{size}.png"))
+                if name.exists():
+                    with Image.open(name) as picture:
+                        picture.load()
+                    reduced = picture.resize((pixels, pixels), Image.Resampling.BOX)
+                    found.append((path, picture if size == pixels else reduced))
+                    break
+    return found
 
 
-def table(tolerance: float | None, every: int = 1, *, one_bit: bool = False) -> None:
+def table(
+    tolerance: float | None, every: int = 1, *, pixels: int = PIXELS, one_bit: bool = False
+) -> None:
     """One line a picture, geometric means, and what misses."""
-    pairs = pictures()[::every]
-    print(f"## {len(pairs)} pictures, tolerance {tolerance} px, one bit: {one_bit}\n")
+    pairs = pictures(pixels)[::every]
+    print(
+        f"## {len(pairs)} pictures of {pixels} pixels, tolerance {tolerance} px,"
+        f" one bit: {one_bit}\n"
+    )
     print("| picture | truth | ours: points | rms | worst | s | potrace: points | rms | worst |")
     print("|---|---|---|---|---|---|---|---|---|")
     ratios, misses = [], []
     for path, picture in pairs:
-        image = Image.open(picture)
+        image = picture
         if one_bit:
             image = black_on_white(image).point(lambda value: 255 * (value >= 128)).convert("1")
-        outline = truth(path)
+        outline = truth(path, pixels)
         found, _ = ours(image, outline, tolerance)
         other = potrace(image, outline)
-        name = picture.stem
+        name = path.name.removesuffix(".truth.json")
         theirs = (
             "| | |" if other is None else f"{other.n_points} | {other.rms:.3f} | {other.worst:.2f}"
         )
@@ -273,9 +288,10 @@ def main() -> None:
     parser.add_argument("--tolerance", default=str(TOLERANCE), help="pixels, or none")
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--one-bit", action="store_true")
+    parser.add_argument("--pixels", type=int, default=PIXELS, choices=SIZES)
     chosen = parser.parse_args()
     tolerance = None if chosen.tolerance == "none" else float(chosen.tolerance)
-    table(tolerance, chosen.every, one_bit=chosen.one_bit)
+    table(tolerance, chosen.every, pixels=chosen.pixels, one_bit=chosen.one_bit)
 
 
 if __name__ == "__main__":
