@@ -205,7 +205,8 @@ def _medial_axis(shape: Shape, outlines: list[FloatArray]) -> _Graph:
         found = np.hypot(*(diagram.vertices[pairs[kept, end]] - sites[of[kept]]).T)
         np.minimum.at(radii, pairs[kept, end], found)
     # A disc that touches a straight side passes half a step beside two of its points.
-    radii = np.sqrt(np.maximum(radii**2 - (0.5 * OUTLINE_STEP) ** 2, 0.0))
+    least = 0.1 * OUTLINE_STEP
+    radii = np.sqrt(np.maximum(radii**2 - (0.5 * OUTLINE_STEP) ** 2, least**2))
     graph = _Graph(diagram.vertices.copy(), radii)
     for a, b in pairs[kept].tolist():
         graph.connect(a, b)

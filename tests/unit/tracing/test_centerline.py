@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from PIL import Image, ImageDraw
@@ -123,3 +125,11 @@ def test_centre_lines_can_be_fitted(tmp_path):
     shape = drawn(tmp_path, lambda pen: line(pen, [(40, 60), (250, 160)], 12))
     (fit,) = ss.fit_shape(shape, tolerance=0.5)
     assert [piece.kind for piece in fit.pieces] == ["line"]
+
+
+def test_places_narrower_than_the_steps_along_an_outline_have_a_width():
+    """Discs of no size divided by nothing there."""
+    picture = Path(__file__).parents[3] / "examples/data/images/opencv_HappyFish.png"
+    shape = ss.trace(picture, centerline=True)
+    assert len(shape) > 10
+    assert min(shape.widths) > 0
