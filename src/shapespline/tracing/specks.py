@@ -30,6 +30,8 @@ LARGEST_PART, LARGEST = 0.0005, (8.0, 400.0)
 # at the border of texture is 0.42. Where the noise is less than this, what is there was drawn
 # (TRC-11).
 DUST, LEAST_DUST, NEARBY, DUST_PART, AMONG, CLEAN = 1.0, 12, 48.0, 4.0, 0.5, 0.005
+# More dust is no picture of something; and outlines whose neighbours are listed at once.
+MOST_DUST, CHUNK = 50_000, 1000
 
 
 def loop_areas(places: FloatArray, loops: Sequence[IntArray]) -> FloatArray:
@@ -70,19 +72,19 @@ def is_speck(field: Field, found: Crossings, places: FloatArray, areas: FloatArr
 def _is_texture(centres: FloatArray, sizes: FloatArray) -> BoolArray:
     """Which outlines are as large as chance makes some among so much dust around them."""
     dust = sizes < DUST
-    if dust.sum() < LEAST_DUST:
+    if not LEAST_DUST <= dust.sum() <= MOST_DUST:
         return np.zeros(len(sizes), dtype=bool)
     from scipy.spatial import cKDTree
 
     grains = centres[dust]
-    near = cKDTree(grains).query_ball_point(centres, NEARBY)
-    count = np.array([len(found) for found in near])
-    aside = np.array(
-        [
-            np.hypot(*(grains[found].mean(axis=0) - centre)) if found else np.inf
-            for found, centre in zip(near, centres, strict=True)
-        ]
-    )
+    tree = cKDTree(grains)
+    count, aside = np.zeros(len(centres)), np.full(len(centres), np.inf)
+    for begin in range(0, len(centres), CHUNK):  # lists of neighbours are long
+        near = tree.query_ball_point(centres[begin : begin + CHUNK], NEARBY)
+        for index, found in enumerate(near, start=begin):
+            if found:
+                count[index] = len(found)
+                aside[index] = np.hypot(*(grains[found].mean(axis=0) - centres[index]))
     return dust | ((sizes <= DUST_PART * (count - 1)) & (aside < AMONG * NEARBY))
 
 
