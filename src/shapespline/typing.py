@@ -18,6 +18,8 @@ Effort: TypeAlias = Literal["fast", "balanced", "smallest"]
 Ends: TypeAlias = Literal["free", "fixed"]
 # Which corners a curve has, where they are not named by their indices.
 CornerChoice: TypeAlias = Literal["auto", "free"]
+# Of measured points: what an error counts where not its square.
+Loss: TypeAlias = Literal["huber", "tukey"]
 # Where the knots of a curve of a given size begin.
 Knots: TypeAlias = Literal[
     "balanced",
@@ -42,4 +44,5 @@ __all__ = [
     "Form",
     "IntArray",
     "Knots",
+    "Loss",
 ]

@@ -28,7 +28,9 @@ DATA = {
     "estimate, noisy": (SHAKEN, {}),
     "estimate, noisy, one spline": (SHAKEN, {"form": "spline"}),
     "estimate, weighted": (SHAKEN, {"weights": np.ones(len(ARCH))}),
+    "estimate, measured": (SHAKEN, {"sigma": 0.05}),
 }
+LEAST_SQUARES = ("estimate, weighted", "estimate, measured")
 WEIGHTS = np.where(np.arange(len(ARCH)) % 40 == 7, 50.0, 1.0)
 # Option -> a value that is not its default.
 OPTIONS = {
@@ -41,6 +43,8 @@ OPTIONS = {
     "symmetric": True,
     "effort": "fast",
     "weights": WEIGHTS,
+    "sigma": 0.05 / np.sqrt(WEIGHTS),
+    "loss": "tukey",
     "knots": "uniform",
     "outliers": True,
     "method": "d-bfgs",
@@ -56,12 +60,19 @@ EXPECTED = {
     ("ends", "of size"): HOLDS,
     ("form", "estimate, noisy, one spline"): HOLDS,
     ("form", "estimate, weighted"): HOLDS,
+    ("form", "estimate, measured"): HOLDS,
     **dict.fromkeys(
         [
-            *(("corners", goal) for goal in ("of size", "estimate, weighted")),
+            *(("corners", goal) for goal in ("of size", *LEAST_SQUARES)),
             *(("corners", goal) for goal in DATA if goal.endswith("one spline")),
             ("form", "of size"),
-            *(("effort", goal) for goal in ("of size", "estimate, weighted")),
+            *(("effort", goal) for goal in ("of size", *LEAST_SQUARES)),
+            *(
+                (name, goal)
+                for name in ("sigma", "loss")
+                for goal in ("within", "within, one spline", "estimate, weighted")
+            ),
+            ("weights", "estimate, measured"),
             *(
                 (name, goal)
                 for name in ("end_tangents", "through", "symmetric")
@@ -142,6 +153,8 @@ ACT = {
     ),
     "effort": lambda fit, points, goal: not same(fit, plain(goal)),
     "weights": heavy_points_are_nearer,
+    "sigma": heavy_points_are_nearer,
+    "loss": lambda fit, points, goal: not same(fit, plain(goal)),
     "knots": lambda fit, points, goal: not same(fit, plain(goal)),
     "outliers": lambda fit, points, goal: fit.outliers.tolist() == [90],
     "method": lambda fit, points, goal: fit.method == "d-bfgs",

@@ -11,7 +11,7 @@ from shapespline.monitor import Monitor
 
 if TYPE_CHECKING:
     from shapespline.monitor import Callback
-    from shapespline.typing import ArrayLike, CornerChoice, Effort, Ends, Form, Knots
+    from shapespline.typing import ArrayLike, CornerChoice, Effort, Ends, Form, Knots, Loss
     from shapespline.values import Contour, Fit
 
 
@@ -30,6 +30,8 @@ def fit_curve(
     symmetric: bool = False,
     effort: Effort = "balanced",
     weights: ArrayLike | None = None,
+    sigma: ArrayLike | None = None,
+    loss: Loss | None = None,
     knots: Knots = "balanced",
     outliers: bool = False,
     method: str = "levenberg-marquardt",
@@ -86,6 +88,15 @@ def fit_curve(
         a tolerance a point of weight w > 1 is kept within tolerance / w, and a lower weight loosens
         nothing. Few points are held exactly by ``through``, and cheaper. Without a tolerance the
         result is one spline.
+    sigma : float or array_like, optional
+        Standard deviations of the measured points: one length, one for each point (n,), one for
+        each axis (n, 2), or covariances (n, 2, 2). In least squares: with a number of control
+        points, or without, and then the errors choose the size of one spline. ``fit.covariance``
+        and ``fit.band`` tell how sure the curve is; open ends are fitted unless they are fixed.
+    loss : {"huber", "tukey"}, optional
+        Where ``sigma`` acts, instead of the square: errors beyond 1.345 standard deviations count
+        linearly, those beyond 4.685 no more. Without ``sigma`` the deviation is that of most
+        points.
     knots : str
         With a number of control points, what least squares starts from: ``"balanced"``, knots
         spread until every span errs as much; or for comparison ``"cpda-filled"``,
@@ -140,6 +151,8 @@ def fit_curve(
         symmetric=symmetric,
         effort=effort,
         weights=weights,
+        sigma=sigma,
+        loss=loss,
         knots=knots,
         outliers=outliers,
         method=method,

@@ -30,7 +30,7 @@ from shapespline.fitting.problem import Problem
 from shapespline.fitting.request import Estimate, Within
 from shapespline.fitting.runs import Runs
 from shapespline.fitting.settings import DEFAULT_METHOD
-from shapespline.fitting.strategies import summed
+from shapespline.fitting.strategies import measured_candidate, summed
 from shapespline.fitting.verify import Candidate
 from shapespline.geometry import joined, reversed_curve, turn_between, two_sided_distance
 from shapespline.values import CORNER_TURN, Contour
@@ -237,6 +237,24 @@ class WeightedSpline:
         contour, weights = problem.contour, summed(problem.request)
         start = smooth_start(contour, problem.request.style.degree, weights, monitor=monitor)
         yield _candidate(problem, _finished(problem, contour, start, weights, monitor))
+
+
+class MeasuredSpline:
+    """One spline of points with known errors, or of which a loss forgives some, its size chosen."""
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve."""
+        request, contour = problem.request, problem.contour
+        weights, error = request.measurement.spread
+        start = smooth_start(
+            contour,
+            request.style.degree,
+            weights,
+            noise=error,
+            loss=request.loss,
+            monitor=monitor,
+        )
+        yield measured_candidate(problem, start, _method(problem), monitor)
 
 
 def _finished(

@@ -15,6 +15,7 @@ from shapespline.fitting.choose import ROUGH_PART
 from shapespline.fitting.estimate import (
     Estimation,
     InBand,
+    MeasuredSpline,
     ObservedPieces,
     SmoothedSpline,
     WeightedSpline,
@@ -64,6 +65,9 @@ def _plan_estimate(
     problem: Problem, shortlist: Shortlist, monitor: Monitor, ask: Ask
 ) -> Iterator[Strategy]:
     """The curve behind noisy points, in pieces where they tell of these; clean ones in a band."""
+    if problem.request.is_measured:
+        yield MeasuredSpline()
+        return
     if problem.request.weights is not None:
         yield WeightedSpline()
         return

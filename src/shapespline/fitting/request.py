@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 import numpy as np
 
 from shapespline.analysis import find_outliers, looks_shuffled
-from shapespline.engines.least_squares import given_weights
+from shapespline.engines.least_squares import check_freedom, checked_measurement, given_weights
 from shapespline.engines.pieces import Constraints
 from shapespline.errors import (
     DegenerateContourError,
@@ -27,6 +27,7 @@ from shapespline.values import Contour
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from shapespline.engines.least_squares import Measurement
     from shapespline.typing import (
         ArrayLike,
         CornerChoice,
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
         Form,
         IntArray,
         Knots,
+        Loss,
     )
 
     Tangents: TypeAlias = tuple[FloatArray | None, FloatArray | None]
@@ -105,6 +107,10 @@ class Request:
         Whether a mirror symmetry is kept at any price.
     weights : ndarray or None
         One for each point that was given and stays.
+    sigma : ndarray or None
+        Errors of these points as `fit_curve` takes them, a length or one entry for each.
+    loss : {"huber", "tukey"} or None
+        What an error counts where not its square.
     effort : {"fast", "balanced", "smallest"}
     left_out : ndarray
         Indices, among the points that were given, of outliers.
@@ -120,6 +126,8 @@ class Request:
     constraints: Constraints = NOTHING_KEPT
     symmetric: bool = False
     weights: FloatArray | None = None
+    sigma: FloatArray | None = None
+    loss: Loss | None = None
     effort: Effort = "balanced"
     left_out: IntArray = field(default_factory=lambda: NO_INDICES)
     pieces_only: bool = False
@@ -155,6 +163,8 @@ class Request:
             constraints=_constraints(settings, contour),
             symmetric=settings.symmetric,
             weights=None if settings.weights is None else given_weights(settings.weights, contour),
+            sigma=None if settings.sigma is None else np.asarray(settings.sigma),
+            loss=settings.loss,
             effort=settings.effort,
         )
         request = request.without_outliers() if settings.outliers else request
@@ -165,7 +175,8 @@ class Request:
     def checked(self) -> Request:
         """The request, if there are points enough for it."""
         degree, n = self.style.degree, len(self.contour)
-        one_spline = isinstance(self.goal, OfSize) or self.weights is not None
+        model = self.measurement  # checks the errors
+        one_spline = isinstance(self.goal, OfSize) or self.is_measured or self.weights is not None
         if n < degree + 1 and one_spline and not isinstance(self.goal, Within):
             raise DegenerateContourError(
                 f"points must hold at least degree + 1 = {degree + 1} distinct points for degree"
@@ -176,7 +187,20 @@ class Request:
                 f"n_control_points must be at most the number of distinct points, {n},"
                 f" got {self.goal.n_control_points}; lower it"
             )
+        if isinstance(self.goal, OfSize) and model.covariances is not None:
+            held = self.constraints.ends and not self.contour.closed
+            check_freedom(n, self.goal.n_control_points, held)
         return self
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether the points have known errors, or a loss counts these."""
+        return self.sigma is not None or self.loss is not None
+
+    @property
+    def measurement(self) -> Measurement:
+        """The errors of the points of the contour, and the loss."""
+        return checked_measurement(self.sigma, self.loss, self.contour.source, len(self.contour))
 
     @property
     def tolerance(self) -> float | None:
@@ -227,7 +251,8 @@ class Request:
             contour=rest,
             style=replace(self.style, corners=corners),
             constraints=self.constraints._replace(through=renumbered(through)),
-            weights=None if self.weights is None else np.delete(self.weights, given),
+            weights=_without(given, self.weights),
+            sigma=_without(given, self.sigma),
             left_out=given,
         )
 
@@ -282,6 +307,8 @@ class Request:
             },
             "symmetric": self.symmetric,
             "weights": plain(self.weights),
+            "sigma": plain(self.sigma),
+            "loss": self.loss,
             "effort": self.effort,
             "left_out": self.left_out.tolist(),
             "pieces_only": self.pieces_only,
@@ -305,6 +332,8 @@ class Request:
             ),
             symmetric=said["symmetric"],
             weights=None if said["weights"] is None else np.array(said["weights"]),
+            sigma=None if said["sigma"] is None else np.array(said["sigma"]),
+            loss=said["loss"],
             effort=said["effort"],
             left_out=np.array(said["left_out"], dtype=np.int64),
             pieces_only=said["pieces_only"],
@@ -329,10 +358,9 @@ def _goal(settings: Settings, contour: Contour) -> Goal:
 
 
 def _corners(settings: Settings, contour: Contour) -> CornerChoice | IntArray | None:
-    corners = settings.corners
-    if corners is None or isinstance(corners, str):
-        return corners  # type: ignore[return-value]
-    return _of_contour("corners", np.asarray(corners), contour)
+    if settings.corners is None or isinstance(settings.corners, str):
+        return settings.corners  # type: ignore[return-value]
+    return _of_contour("corners", np.asarray(settings.corners), contour)
 
 
 def _constraints(settings: Settings, contour: Contour) -> Constraints:
@@ -344,16 +372,19 @@ def _constraints(settings: Settings, contour: Contour) -> Constraints:
     nodes = NO_INDICES
     if settings.through is not None:
         nodes = _of_contour("through", np.asarray(settings.through), contour)
-    tangents: Tangents = (None, None)
-    if settings.end_tangents is not None:
-        begin, end = settings.end_tangents
-        tangents = (
-            None if begin is None else np.array(begin),
-            None if end is None else np.array(end),
-        )
+    begin, end = settings.end_tangents or (None, None)
+    tangents: Tangents = (
+        None if begin is None else np.array(begin),
+        None if end is None else np.array(end),
+    )
     held = any(tangent is not None for tangent in tangents)
     ends = settings.ends == "fixed" or held or _at_ends(nodes, contour)
     return Constraints(ends, nodes, tangents)
+
+
+def _without(given: IntArray, values: FloatArray | None) -> FloatArray | None:
+    """One value for each point that stays, or the one of all."""
+    return np.delete(values, given, axis=0) if values is not None and values.ndim else values
 
 
 def _of_contour(name: str, indices: IntArray, contour: Contour) -> IntArray:

@@ -12,7 +12,7 @@ import numpy as np
 from shapespline.engines.least_squares import named_solver
 from shapespline.errors import InvalidInputError
 from shapespline.monitor import checked_time_limit
-from shapespline.typing import CornerChoice, Effort, Ends, Form, Knots
+from shapespline.typing import CornerChoice, Effort, Ends, Form, Knots, Loss
 from shapespline.validation import (
     checked_choice,
     checked_flag,
@@ -61,6 +61,8 @@ class Settings:
     symmetric: bool = False
     effort: Effort = "balanced"
     weights: ArrayLike | None = None
+    sigma: ArrayLike | None = None
+    loss: Loss | None = None
     knots: Knots = "balanced"
     outliers: bool = False
     method: str = DEFAULT_METHOD
@@ -91,8 +93,11 @@ class Settings:
         if self.through is not None:
             expected = "None or indices of points"
             set_(self, "through", checked_indices("through", self.through, expected))
-        if self.weights is not None:
-            set_(self, "weights", float_array(self.weights, "weights"))
+        for name in ("weights", "sigma"):
+            if getattr(self, name) is not None:
+                set_(self, name, float_array(getattr(self, name), name))
+        if self.loss is not None:
+            checked_choice("loss", self.loss, get_args(Loss))
         self._check_together()
 
     def _check_together(self) -> None:
@@ -108,7 +113,13 @@ class Settings:
             )
         if self.method != DEFAULT_METHOD and not self._one_spline:
             raise InvalidInputError(
-                "method acts with n_control_points, weights or form='spline': give one of them"
+                "method acts with n_control_points, weights, sigma, loss or form='spline': give"
+                " one of them"
+            )
+        if self._has("sigma", "loss") and (within or self.weights is not None):
+            beside = "within a tolerance" if within else "beside weights"
+            raise InvalidInputError(
+                f"sigma and loss act in least squares, not {beside}: leave one of them out"
             )
         if self._has("end_tangents", "through", "symmetric") and not within:
             raise InvalidInputError(
@@ -116,8 +127,9 @@ class Settings:
             )
         if sized:
             self._refuse(("corners", "form", "effort"), "with n_control_points")
-        elif self.weights is not None and not within:
-            self._refuse(("corners", "effort"), "with weights and no tolerance")
+        elif self._has("weights", "sigma", "loss") and not within:
+            said = next(name for name in ("weights", "sigma", "loss") if self._has(name))
+            self._refuse(("corners", "effort"), f"with {said} and no tolerance")
         if self.form == "spline" and not isinstance(self.corners, str | None):
             raise InvalidInputError("corners must be 'auto', 'free' or None for form='spline'")
         if self.form == "arcs":
@@ -148,9 +160,8 @@ class Settings:
     @property
     def _one_spline(self) -> bool:
         """Whether least squares make one spline."""
-        return (
-            self.n_control_points is not None or self.weights is not None or self.form == "spline"
-        )
+        given = self._has("n_control_points", "weights", "sigma", "loss")
+        return given or self.form == "spline"
 
     def _has(self, *names: str) -> bool:
         values = [getattr(self, name) for name in names]

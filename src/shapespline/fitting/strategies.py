@@ -10,11 +10,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from shapespline.engines.least_squares import (
+    FAR,
     FINAL_LIMITS,
     STARTS,
     STRAY_WEIGHT,
+    RunArguments,
+    measured,
     minimized,
     named_solver,
+    smooth_start,
+    standardized,
+    start_of_some,
     summed_weights,
 )
 from shapespline.engines.pieces import (
@@ -36,9 +42,10 @@ from shapespline.fitting.verify import Candidate, Verified
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
+    from shapespline.engines.least_squares import Start
     from shapespline.monitor import Monitor
     from shapespline.typing import FloatArray
-    from shapespline.values import Piece
+    from shapespline.values import Contour, Piece
 
     Proposals: TypeAlias = Generator[Candidate, Verified, None]
     # Answers a sub-request by the same plan and order of preference.
@@ -198,6 +205,11 @@ class LeastSquares:
         goal, contour = request.goal, problem.contour
         if not isinstance(goal, OfSize):
             return
+        if request.is_measured:
+            yield measured_candidate(
+                problem, _measured_start(problem, goal, monitor), goal.method, monitor
+            )
+            return
         weights = summed(request)
         start = STARTS[goal.knots](contour, goal.n_control_points, request.style.degree, weights)
         solver, name = named_solver(goal.method)
@@ -212,6 +224,55 @@ class LeastSquares:
             ask=monitor.ends,
         )
         yield Candidate(method=name, spline=found.spline, run=found.run, history=found.history)
+
+
+def _measured_start(problem: Problem, goal: OfSize, monitor: Monitor) -> Start:
+    """The start that a size names, for points with errors."""
+    request = problem.request
+    weights, error = request.measurement.spread
+
+    def make(points: Contour, weights: FloatArray | None) -> Start:
+        count = min(goal.n_control_points, len(points))
+        return STARTS[goal.knots](points, count, request.style.degree, weights)
+
+    if request.loss is None:
+        return make(problem.contour, weights)
+    # The size that the points ask for tells whom to trust: a larger one bends to outliers.
+    seen = smooth_start(
+        problem.contour,
+        request.style.degree,
+        weights,
+        noise=error,
+        loss=request.loss,
+        monitor=monitor,
+    )
+    kept = standardized(problem.contour, seen, weights, error) <= FAR
+    return start_of_some(problem.contour, make, weights, kept)
+
+
+def measured_candidate(problem: Problem, start: Start, method: str, monitor: Monitor) -> Candidate:
+    """Least squares of points with errors from a start; their ends are no places to pass through.
+
+    Nothing else holds the curve, so that its covariance is that of the points alone.
+    """
+    contour, request = problem.contour, problem.request
+    ends = "fixed" if request.constraints.ends else "fitted"
+    solver, name = named_solver(method)
+    arguments = RunArguments(
+        ends=None if contour.closed else ends,
+        limits=FINAL_LIMITS,
+        callback=monitor.of_iterations,
+    )
+    found, uncertainty = measured(
+        contour, start, solver, request.measurement, arguments, monitor.ends
+    )
+    return Candidate(
+        method=name,
+        spline=found.spline,
+        run=found.run,
+        history=found.history,
+        uncertainty=uncertainty,
+    )
 
 
 def summed(request: Request) -> FloatArray | None:

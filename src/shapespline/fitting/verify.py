@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from shapespline.geometry import Distances
     from shapespline.monitor import Iteration, Monitor
     from shapespline.solvers import Result
-    from shapespline.values import BSplineCurve, Contour, Piece
+    from shapespline.values import BSplineCurve, Contour, Piece, Uncertainty
 
 
 # Roundings of the coordinates of two control points, in parts of the larger.
@@ -52,6 +52,8 @@ class Candidate:
         Of one spline, if it was measured.
     run, history
         How the iterations ended and their records, where the curve is theirs.
+    uncertainty : Uncertainty or None
+        Of one spline that fits points with known errors.
     """
 
     method: str
@@ -62,6 +64,7 @@ class Candidate:
     fairness: Fairness | None = None
     run: Result | None = None
     history: tuple[Iteration, ...] = ()
+    uncertainty: Uncertainty | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +115,8 @@ def verify(candidate: Candidate, request: Request) -> Verified:
         sections=candidate.pieces,
         distances=candidate.distances,
     )
+    if candidate.uncertainty is not None:
+        fit = replace(fit, uncertainty=candidate.uncertainty)
     error = _tangent_error(fit.pieces, request.constraints)
     if error:
         turn = np.degrees(error)

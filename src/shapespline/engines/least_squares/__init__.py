@@ -1,6 +1,11 @@
 """The least-squares engine: control points and location parameters together."""
 
-from shapespline.engines.least_squares.measurement import checked_measurement, measured
+from shapespline.engines.least_squares.measurement import (
+    Measurement,
+    check_freedom,
+    checked_measurement,
+    measured,
+)
 from shapespline.engines.least_squares.methods import METHODS, named_solver
 from shapespline.engines.least_squares.problem import ENDS, CurveProblem
 from shapespline.engines.least_squares.settings import (
@@ -45,11 +50,13 @@ from shapespline.engines.least_squares.starts.stations import (
     inner_maxima,
     own_number,
 )
+from shapespline.engines.least_squares.starts.trusted import FAR, standardized, start_of_some
 from shapespline.engines.least_squares.streamed import MOST_PASSES, least_squares
 
 __all__ = [
     "DEFAULT_LIMITS",
     "ENDS",
+    "FAR",
     "FINAL_LIMITS",
     "METHODS",
     "MOST_PASSES",
@@ -59,6 +66,7 @@ __all__ = [
     "STRAY_WEIGHT",
     "Balanced",
     "CurveProblem",
+    "Measurement",
     "Minimized",
     "RunArguments",
     "RunSettings",
@@ -66,6 +74,7 @@ __all__ = [
     "Start",
     "balanced_start",
     "bend_gain",
+    "check_freedom",
     "checked_measurement",
     "chosen_stations",
     "even_samples",
@@ -83,6 +92,8 @@ __all__ = [
     "settings_of",
     "smooth_start",
     "smoothed",
+    "standardized",
+    "start_of_some",
     "straight_line",
     "summed_weights",
     "with_neighbours",

@@ -8,8 +8,6 @@ squares), and robust losses come in the same way.
 References
 ----------
 .. [1] P. J. Huber, Robust Statistics, 1981, section 7.6: the covariance of an M-estimate.
-.. [2] P. W. Holland, R. E. Welsch, Robust regression using iteratively reweighted least squares,
-   1977: the constants of Huber's and Tukey's losses for 95 % efficiency.
 """
 
 from __future__ import annotations
@@ -19,21 +17,24 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from shapespline.engines.least_squares.descent import go_on
+from shapespline.engines.least_squares.losses import LOSSES, slope_and_square, weight_factors
 from shapespline.engines.least_squares.solve import parameters_in_order, run_solver
 from shapespline.engines.least_squares.starts.equidistribution import Balanced
 from shapespline.errors import InvalidInputError
 from shapespline.geometry import curve_motion, unit_normals
+from shapespline.solvers import Stop
 from shapespline.validation import float_array, median
 from shapespline.values import Contour, Uncertainty
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from shapespline.engines.least_squares.solve import KnotMethod, Minimized, RunArguments, Start
     from shapespline.solvers import Solver
     from shapespline.typing import ArrayLike, FloatArray, IntArray
     from shapespline.values import BSplineCurve
 
-# Standard deviations beyond which a loss departs from the square, [2].
-LOSSES = {"huber": 1.345, "tukey": 4.685}
 # Median of the absolute value of a standard normal variable.
 _NORMAL_MEDIAN = 0.6744897501960817
 # The fit is repeated until no weight changes by more than a part, or so many times.
@@ -54,6 +55,16 @@ class Measurement:
         if self.covariances is None:
             return self
         return replace(self, covariances=np.concatenate([self.covariances, self.covariances[:1]]))
+
+    @property
+    def spread(self) -> tuple[FloatArray | None, float | None]:
+        """Weights for a start, of mean one, None where alike; the error of one of weight one."""
+        if self.covariances is None:
+            return None, None
+        precision = 2.0 / np.einsum("kii->k", self.covariances)
+        mean = float(precision.mean())
+        alike = bool((precision == precision[0]).all())
+        return None if alike else precision / mean, mean**-0.5
 
     @property
     def is_plain(self) -> bool:
@@ -141,23 +152,26 @@ def measured(
     solver: Solver[Any, Any] | KnotMethod,
     model: Measurement,
     arguments: RunArguments,
+    ask: Callable[[int], bool] = go_on,
 ) -> tuple[Minimized, Uncertainty | None]:
     """The curve that fits measured points, and its uncertainty where their errors are known.
 
     Points without errors and loss are fitted once, with the weights of the arguments. The history
-    is that of the last round.
+    is that of the last round. ``ask`` is asked now and then whether to end with what there is.
     """
     if model.covariances is None and model.loss is None:
-        return run_solver(contour, start, solver, arguments), None
-    _check_size(contour, start.spline, model, arguments.ends)
+        return run_solver(contour, start, solver, arguments, ask), None
+    if model.covariances is not None:
+        held = not start.spline.periodic and arguments.ends in (None, "fixed")
+        check_freedom(len(contour), start.spline.n_control_points, held)
     # Squares first would bend the curve towards outliers, and it might not come back.
     gentle = replace(model, loss=model.loss and "huber")
     weights = _weights(contour, start.spline, parameters_in_order(start, contour), gentle)
     for round_ in range(_ROUNDS):
         weighted = replace(arguments, weights=weights / weights.mean())
-        found = run_solver(contour, start, solver, weighted)
+        found = run_solver(contour, start, solver, weighted, ask)
         parameters = found.run.x[2 * found.spline.n_control_points :]
-        if model.is_plain:
+        if model.is_plain or found.run.stop is Stop.CANCELLED:
             break
         loss = "huber" if model.loss == "tukey" and round_ < _HUBER_ROUNDS else model.loss
         last, weights = (
@@ -173,17 +187,13 @@ def measured(
     return found, _uncertainty(contour, found.spline, parameters, model, arguments.ends)
 
 
-def _check_size(
-    contour: Contour, spline: BSplineCurve, model: Measurement, ends: str | None
-) -> None:
-    """Raise if there are no points left to tell the errors from the curve."""
-    free = 2 * spline.n_control_points
-    if not spline.periodic and ends in (None, "fixed"):
-        free -= 4
-    if model.covariances is not None and len(contour) <= free:
+def check_freedom(n_points: int, n_control_points: int, held: bool) -> None:
+    """Raise if no points are left to tell the errors from the curve; held ends are no unknowns."""
+    free = 2 * n_control_points - (4 if held else 0)
+    if n_points <= free:
         raise InvalidInputError(
-            f"sigma needs more points than unknowns: {len(contour)} points for"
-            f" {spline.n_control_points} control points with {free} free coordinates leave no"
+            f"sigma needs more points than unknowns: {n_points} points for"
+            f" {n_control_points} control points with {free} free coordinates leave no"
             " degree of freedom; take fewer control points"
         )
 
@@ -222,14 +232,7 @@ def _weights(
     """psi(z) / z over the variance of each normal distance."""
     found = _residuals(contour, spline, parameters, model)
     z = np.abs(found.standardized)
-    if model.loss == "huber":
-        factor = np.minimum(1.0, LOSSES["huber"] / np.maximum(z, 1e-12))
-    elif model.loss == "tukey":
-        # Not quite zero: every point keeps a place along the curve.
-        factor = np.maximum((1.0 - np.minimum(z / LOSSES["tukey"], 1.0) ** 2) ** 2, 1e-9)
-    else:
-        factor = np.ones(len(z))
-    return factor / found.deviations**2
+    return weight_factors(z, model.loss) / found.deviations**2
 
 
 def _uncertainty(
@@ -246,7 +249,7 @@ def _uncertainty(
     """
     found = _residuals(contour, spline, parameters, model)
     z = found.standardized
-    slope, square = _slope_and_square(z, model.loss)
+    slope, square = slope_and_square(z, model.loss)
     normals, count = unit_normals(spline, parameters), spline.n_control_points
     motion = curve_motion(spline, parameters, normals)
     precision = 1.0 / found.deviations**2
@@ -297,20 +300,6 @@ def _spacing(spline: BSplineCurve) -> FloatArray:
     else:
         nearer = np.minimum(np.append(steps, np.inf), np.append(np.inf, steps))
     return np.maximum(nearer, 0.1 * steps.mean())
-
-
-def _slope_and_square(z: FloatArray, loss: str | None) -> tuple[FloatArray, FloatArray]:
-    """psi'(z), and psi(z)^2 averaged: of squares both are one."""
-    if loss is None:
-        return np.ones(len(z)), np.ones(len(z))
-    bound = LOSSES[loss]
-    if loss == "huber":
-        slope, psi = (np.abs(z) <= bound).astype(float), np.clip(z, -bound, bound)
-    else:
-        part = np.minimum((z / bound) ** 2, 1.0)
-        slope, psi = (1.0 - part) * (1.0 - 5.0 * part), z * (1.0 - part) ** 2
-    # Means over all points: a single one says too little about its own error.
-    return np.full(len(z), slope.mean()), np.full(len(z), (psi**2).mean())
 
 
 def _information(

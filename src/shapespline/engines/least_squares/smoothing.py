@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis import NOISE_BAND, resolution
+from shapespline.engines.least_squares.losses import counted
 from shapespline.engines.least_squares.starts.equidistribution import Balanced, balanced_start
+from shapespline.engines.least_squares.starts.trusted import trusted_start
 from shapespline.solvers import Limits
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
     from shapespline.monitor import Monitor
-    from shapespline.typing import FloatArray
+    from shapespline.typing import FloatArray, Loss
 
 # Price of a control point in units of the variance: more than the 2 of AIC, for a free knot and a
 # free tangential place come with it. Measured on a loop (benchmarks.estimation): 2.5 / 3 / 3.5 / 5
@@ -60,29 +62,30 @@ def smoothed(
     degree: int,
     noise: float,
     weights: FloatArray | None = None,
+    loss: Loss | None = None,
     *,
     monitor: Monitor,
 ) -> Smoothed:
     """The least-squares spline, or line, whose size makes the cost least.
 
     Minimises ``sum w |C(t) - Q|^2 / noise^2 + 3.5 m`` over the number m of control points (Mallows'
-    C_p with a dearer parameter), coarsely first, then finely. The monitor may end the search; the
-    best size so far is taken.
+    C_p with a dearer parameter), coarsely first, then finely. A loss takes the place of the square.
+    The monitor may end the search; the best size so far is taken.
     """
     if len(contour) > SEARCH_POINTS and weights is None:
         stride = -(-len(contour) // SEARCH_POINTS)
         thinned = Contour.silently(contour.points[::stride], contour.closed)
-        size = smoothed(thinned, degree, noise, monitor=monitor).n_control_points
+        size = smoothed(thinned, degree, noise, None, loss, monitor=monitor).n_control_points
         if size <= degree:
             return straight_line(contour, noise)
-        return _of_size(size, contour, degree, noise, monitor=monitor)
+        return _of_size(size, contour, degree, noise, None, loss, monitor=monitor)
     best = Smoothed(contour.points, np.inf, len(contour), None)
-    if not contour.closed and weights is None:
+    if not contour.closed and weights is None and loss is None:
         best = straight_line(contour, noise)
     most = max(degree + 1, int(LARGEST_PART * len(contour)))
     size, misses = degree + 1, 0
     while size <= most and (size <= AT_LEAST or misses < PATIENCE):
-        found = _of_size(size, contour, degree, noise, weights, monitor=monitor)
+        found = _of_size(size, contour, degree, noise, weights, loss, monitor=monitor)
         best, misses = (found, 0) if found.cost < best.cost else (best, misses + 1)
         size = max(size + 1, round(SIZE_FACTOR * size))
         if monitor.ends(size):
@@ -90,7 +93,7 @@ def smoothed(
     middle = best.n_control_points
     for size in range(round(middle / SIZE_FACTOR) + 1, round(middle * SIZE_FACTOR)):
         if degree < size <= most and (size - middle) % max(1, round(FINEST * middle)) == 0:
-            found = _of_size(size, contour, degree, noise, weights, monitor=monitor)
+            found = _of_size(size, contour, degree, noise, weights, loss, monitor=monitor)
             best = found if found.cost < best.cost else best
             if monitor.ends(size):
                 break
@@ -103,13 +106,22 @@ def _of_size(
     degree: int,
     noise: float,
     weights: FloatArray | None = None,
+    loss: Loss | None = None,
     *,
     monitor: Monitor,
 ) -> Smoothed:
     """The least-squares spline with so many control points."""
-    start = balanced_start(
-        contour, size, degree, weights, rounds=0, ends="fitted", ask=monitor.ends
-    )
+
+    def make(points: Contour, weights: FloatArray | None) -> Balanced:
+        return balanced_start(
+            points, size, degree, weights, rounds=0, ends="fitted", ask=monitor.ends
+        )
+
+    if loss is not None:
+        trusted = trusted_start(contour, make, weights, noise)
+        start, cost = trusted.start, float(counted(trusted.standardized, loss).sum())
+        return Smoothed(start.spline(start.parameters), cost + PENALTY * size, size, start)
+    start = make(contour, weights)
     points = start.spline(start.parameters)
     squares = ((points - contour.points) ** 2).sum(axis=1)
     total = float(squares.sum() if weights is None else weights @ squares)
@@ -127,12 +139,22 @@ def straight_line(contour: Contour, noise: float) -> Smoothed:
 
 
 def smooth_start(
-    contour: Contour, degree: int, weights: FloatArray | None = None, *, monitor: Monitor
+    contour: Contour,
+    degree: int,
+    weights: FloatArray | None = None,
+    *,
+    noise: float | None = None,
+    loss: Loss | None = None,
+    monitor: Monitor,
 ) -> Balanced:
-    """One spline over the whole contour, of the size that the criterion chooses."""
-    shown = resolution(contour)
-    noise = max(shown.noise, shown.band / NOISE_BAND)
-    found = smoothed(contour, degree, noise, weights, monitor=monitor)
+    """One spline over the whole contour, of the size that the criterion chooses.
+
+    ``noise`` is the error of a point of weight one, found from the points if it is not known.
+    """
+    if noise is None:
+        shown = resolution(contour)
+        noise = max(shown.noise, shown.band / NOISE_BAND)
+    found = smoothed(contour, degree, noise, weights, loss, monitor=monitor)
     if found.start is not None:
         return found.start
     return balanced_start(contour, degree + 1, degree, weights, rounds=0, ends="fitted")
