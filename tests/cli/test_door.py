@@ -10,6 +10,7 @@ import pytest
 from tests.cli.test_errors import HAND
 from tests.support.command_line import one_line
 from tests.support.desk import laid_out
+from tests.support.shapes import flower
 
 import shapespline as ss
 from shapespline.cli import help_pages, waiting
@@ -209,3 +210,27 @@ def test_a_temporary_name_is_never_said(shapespline, tmp_path, monkeypatch):
     assert one_line(err)
     assert "standard input: line 2" in err
     assert "shapespline-stream" not in err
+
+
+def test_errors_of_points_are_a_length_or_a_column(shapespline, desk):
+    points = flower(80).points
+    rows = "".join(f"{x},{y},0.1,0.2\n" for x, y in points)
+    (desk / "table.csv").write_text("x,y,ex,ey\n" + rows)
+    common = ("table.csv", "--columns", "x,y", "--closed", "-n", 20)
+    for number, sigma in enumerate(("0.1", "ex", "@3", "ex,ey")):
+        target = f"{number}.json"
+        assert shapespline("fit", *common, "--sigma", sigma, "-o", target)[0] == 0
+    variances = [ss.read(desk / f"{n}.json").fits[0].covariance.trace() for n in range(4)]
+    assert variances[0] == variances[1] == variances[2] < variances[3]
+    assert shapespline("fit", *common, "--sigma", 0.1, "--band", 0.95, "-o", "b.svg")[0] == 0
+    for wrong, said in (
+        (("--sigma", "nothing"), "no column 'nothing'"),
+        (("--sigma", "ex", "--width", 5), "--sigma with columns and --width"),
+    ):
+        code, _, err = shapespline("fit", *common, *wrong, "-o", "no.svg")
+        assert code == 1
+        assert one_line(err)
+        assert said in err
+    code, _, err = shapespline("fit", "table.csv", "--sigma", "ex", "-t", 1, "-o", "no.svg")
+    assert code == 1
+    assert "not within a tolerance" in err

@@ -47,6 +47,7 @@ class FitFile:
     reading: options.Reading
     writing: options.Writing
     settings: Settings
+    sigma_columns: str | None
     shared_boundaries: bool
     plot: Path | None
     many: bool
@@ -62,7 +63,7 @@ class FitFile:
                 n_points = sum(len(contour) for contour in shape)
                 say(f"fitting {len(shape)} outlines of {n_points} points; --time-limit ends it")
                 began = time.perf_counter()
-                drawing = self.fitted(shape)
+                drawing = self.fitted(shape, source)
             else:
                 began = time.perf_counter()
                 drawing = self.fitted_in_passes(large)
@@ -83,9 +84,11 @@ class FitFile:
             exceeded=any(not fit.kept for fit in drawing),
         )
 
-    def fitted(self, shape: ss.Shape) -> ss.Drawing:
+    def fitted(self, shape: ss.Shape, source: Path) -> ss.Drawing:
         """The fit of a shape in memory; areas of colours share their boundaries."""
         asked = self.settings.to_dict()
+        if self.sigma_columns is not None:
+            asked["sigma"] = self.reading.errors(source, self.sigma_columns)
         shared = self.shared_boundaries or any(shape.colors)
         accuracy = shape.longest.accuracy
         if any(shape.colors) and accuracy and not asked.keys() & WANTED:
@@ -95,7 +98,7 @@ class FitFile:
     def mapped(self, source: Path) -> np.memmap | None:
         """The points of a file that is too large to be read at once, if there is no other need."""
         asked = set(self.settings.to_dict())
-        if self.plot is not None or self.shared_boundaries:
+        if self.plot is not None or self.shared_boundaries or self.sigma_columns is not None:
             return None
         if not (asked & WANTED and asked <= IN_PASSES):
             return None
@@ -210,6 +213,22 @@ def fit(
             rich_help_panel=FIT,
         ),
     ] = False,
+    sigma: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LENGTH|COLUMNS",
+            help="Error of the points, one standard deviation: a length, or the column of a table"
+            " (two for x and y), by name or as @3; the result says how sure it is.",
+            rich_help_panel=FIT,
+        ),
+    ] = None,
+    loss: Annotated[
+        Literal["huber", "tukey"] | None,
+        typer.Option(
+            help="Large errors of the points count less, or no more; without a tolerance.",
+            rich_help_panel=FIT,
+        ),
+    ] = None,
     shared_boundaries: Annotated[
         bool,
         typer.Option(
@@ -272,13 +291,18 @@ def fit(
         "ends": ends,
         "symmetric": symmetric,
         "outliers": outliers,
+        "sigma": length_of(sigma),
+        "loss": loss,
         "time_limit": time_limit,
     }
     if settings_path is not None:
         typed = {name: value for name, value in asked.items() if _typed(context, name)}
         asked = settings_file.merged(settings_file.load(settings_path), typed)
     asked, writing = _as_arcs(asked, writing, ending or Path(output or "").suffix)
+    sigma_columns = None if sigma is None or asked.get("sigma") is not None else sigma
     settings = Settings.from_dict(asked)
+    if sigma_columns is not None:  # any length: refused beside what it would not act with
+        Settings.from_dict({**asked, "sigma": 1.0})
     if save_settings is not None:
         settings_file.save(save_settings, settings)
 
@@ -300,6 +324,7 @@ def fit(
             reading,
             writing,
             settings,
+            sigma_columns,
             shared_boundaries,
             plot,
             many=len(found) > 1,
@@ -323,6 +348,14 @@ def _as_arcs(
         return asked, writing
     drawn = ending.lower().removeprefix(".") == "dxf"  # one polyline for each outline
     return asked | {"form": "arcs"}, replace(writing, arcs=drawn)
+
+
+def length_of(sigma: str | None) -> float | None:
+    """The length that was typed, None if it was the name of a column or nothing."""
+    try:
+        return None if sigma is None else float(sigma)
+    except ValueError:
+        return None
 
 
 def _typed(context: typer.Context, setting: str) -> bool:

@@ -17,6 +17,8 @@ from shapespline.cli.panels import FIT, INPUT, OUTPUT, PICTURE, RUN
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    import numpy as np
+
     from shapespline import Drawing, Shape
 
     Command = Callable[..., Any]
@@ -224,6 +226,18 @@ class Reading:
             widths=found.widths,
         )
 
+    def errors(self, path: Path, columns: str) -> np.ndarray:
+        """Standard deviations of the points of a table, (n, 2), from one of its columns or two."""
+        if self.width is not None or self.unordered:
+            raise ss.InvalidInputError(
+                "--sigma with columns and --width or --unordered exclude each other"
+            )
+        from shapespline.formats import columns_of
+
+        x, _, y = columns.removeprefix("@").partition(",")
+        found = columns_of(path, f"{x},{y or x}")
+        return found if self.scale is None else found * self.scale
+
     def outlines(self, path: Path, tolerance: float | str | None = None) -> Shape:
         """The outlines in the file; of a drawing those that it was fitted to.
 
@@ -279,6 +293,14 @@ class Writing:
         float | None,
         typer.Option(
             help="G-code: height above Z0 between outlines (default: 5 mm).", rich_help_panel=OUTPUT
+        ),
+    ] = None
+    band: Annotated[
+        float | None,
+        typer.Option(
+            help="Draw the band that holds the true curve at each place with this probability, such"
+            " as 0.95 (SVG, with --sigma).",
+            rich_help_panel=OUTPUT,
         ),
     ] = None
     chord: Annotated[

@@ -26,8 +26,8 @@ from shapespline.engines.least_squares import (
 )
 from shapespline.engines.pieces import PIECE_DEGREE, fit_observed, pinned_exactly
 from shapespline.errors import DegenerateContourError
+from shapespline.fitting.goals import Estimate, Within
 from shapespline.fitting.problem import Problem
-from shapespline.fitting.request import Estimate, Within
 from shapespline.fitting.runs import Runs
 from shapespline.fitting.settings import DEFAULT_METHOD
 from shapespline.fitting.strategies import measured_candidate, summed

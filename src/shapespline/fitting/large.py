@@ -19,7 +19,8 @@ import numpy as np
 from shapespline.analysis import LONGEST_CHORD
 from shapespline.engines.least_squares import MOST_PASSES, least_squares
 from shapespline.errors import DegenerateContourError, InvalidInputError
-from shapespline.fitting.request import Request, Style, Within
+from shapespline.fitting.goals import Style, Within
+from shapespline.fitting.request import Request
 from shapespline.fitting.settings import Settings, tolerance_length
 from shapespline.fitting.solve import search
 from shapespline.fitting.streamed import distances_of_all, fit_proxy, with_distances

@@ -20,7 +20,7 @@ from shapespline.fitting.estimate import (
     SmoothedSpline,
     WeightedSpline,
 )
-from shapespline.fitting.request import Estimate, OfSize
+from shapespline.fitting.goals import Estimate, OfSize
 from shapespline.fitting.strategies import (
     EVERY_POINT,
     LINES,

@@ -21,7 +21,8 @@ from shapespline.errors import (
     ShuffledPointsWarning,
     caller_level,
 )
-from shapespline.fitting.settings import DEFAULT_METHOD, Settings, plain, tolerance_length
+from shapespline.fitting.goals import Estimate, Goal, OfSize, Style, Within
+from shapespline.fitting.settings import Settings, plain, tolerance_length
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
@@ -33,9 +34,7 @@ if TYPE_CHECKING:
         CornerChoice,
         Effort,
         FloatArray,
-        Form,
         IntArray,
-        Knots,
         Loss,
     )
 
@@ -44,51 +43,7 @@ if TYPE_CHECKING:
 NO_INDICES: IntArray = np.empty(0, dtype=np.int64)
 NO_INDICES.setflags(write=False)
 NOTHING_KEPT = Constraints()
-
-
-@dataclass(frozen=True)
-class Within:
-    """The fewest stored points whose curve keeps a tolerance, both ways; data units."""
-
-    tolerance: float
-
-
-@dataclass(frozen=True)
-class OfSize:
-    """One spline of a number of control points by least squares."""
-
-    n_control_points: int
-    knots: Knots = "balanced"
-    method: str = DEFAULT_METHOD
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """The curve behind points of which nothing else is known."""
-
-    method: str = DEFAULT_METHOD
-
-
-Goal = Within | OfSize | Estimate
-
-
-@dataclass(frozen=True, eq=False)
-class Style:
-    """How the curve is made: degree, form and corners (a word, or indices of the contour)."""
-
-    degree: int = 3
-    form: Form = "pieces"
-    corners: CornerChoice | IntArray | None = "auto"
-
-    @property
-    def free(self) -> bool:
-        """Whether corners may be rounded and made."""
-        return isinstance(self.corners, str) and self.corners == "free"
-
-    @property
-    def names_corners(self) -> bool:
-        """Whether the caller knows the corners, or that there are none."""
-        return not isinstance(self.corners, str)
+CUBIC_PIECES = Style()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -122,7 +77,7 @@ class Request:
 
     contour: Contour
     goal: Goal
-    style: Style = Style()
+    style: Style = CUBIC_PIECES
     constraints: Constraints = NOTHING_KEPT
     symmetric: bool = False
     weights: FloatArray | None = None

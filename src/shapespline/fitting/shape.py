@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from shapespline.monitor import Callback
-    from shapespline.typing import CornerChoice, Effort, Ends, Form
+    from shapespline.typing import ArrayLike, CornerChoice, Effort, Ends, Form, Loss
     from shapespline.values import Fit, Piece
 
 # Of the tolerance: points of two contours that are no farther apart are one point of a boundary.
@@ -45,6 +45,8 @@ def fit_shape(
     ends: Ends = "free",
     symmetric: bool = False,
     outliers: bool = False,
+    sigma: ArrayLike | None = None,
+    loss: Loss | None = None,
     shared_boundaries: bool = False,
 ) -> Drawing:
     """Fit a B-spline curve to each contour of a shape.
@@ -60,6 +62,8 @@ def fit_shape(
         Number of control points of each curve; chosen for each contour when neither is given.
     degree, corners, form, effort, method, callback, time_limit, ends, symmetric, outliers
         See `fit_curve`; the limit is that of each contour.
+    sigma, loss
+        See `fit_curve`; of several contours a length, the error of all points.
     shared_boundaries : bool
         Fit boundaries that contours share (the same points, as far as a hundredth of the
         tolerance) once: their pieces are the same in both to the bit. Needs a tolerance.
@@ -97,6 +101,8 @@ def fit_shape(
         symmetric=symmetric,
         effort=effort,
         outliers=outliers,
+        sigma=sigma,
+        loss=loss,
         method=method,
         time_limit=time_limit,
     )
@@ -123,6 +129,11 @@ class DrawingRequest:
         shared = checked_flag("shared_boundaries", shared_boundaries)
         if shared and (settings.tolerance is None or settings.outliers):
             raise InvalidInputError("shared_boundaries need a tolerance, and exclude outliers")
+        if settings.sigma is not None and len(shape) > 1 and np.ndim(settings.sigma):
+            raise InvalidInputError(
+                f"sigma must be one length for the {len(shape)} contours of a shape, got shape"
+                f" {np.shape(settings.sigma)}; fit them one by one with fit_curve"
+            )
         if isinstance(settings.tolerance, str):
             everything = Contour.silently(np.concatenate([c.points for c in shape]), closed=False)
             settings = replace(settings, tolerance=tolerance_length(settings.tolerance, everything))

@@ -35,8 +35,9 @@ from shapespline.engines.pieces import (
     with_ends_turned,
 )
 from shapespline.engines.spline import attempts
+from shapespline.fitting.goals import OfSize, Style, Within
 from shapespline.fitting.problem import Problem
-from shapespline.fitting.request import OfSize, Request, Style, Within
+from shapespline.fitting.request import Request
 from shapespline.fitting.verify import Candidate, Verified
 
 if TYPE_CHECKING:

@@ -20,8 +20,8 @@ from shapespline.analysis import (
 )
 from shapespline.engines.pieces import PiecesProblem
 from shapespline.errors import InvalidInputError
+from shapespline.fitting.goals import Within
 from shapespline.fitting.problem import Problem
-from shapespline.fitting.request import Within
 from shapespline.fitting.verify import final_status, finished, status_of
 from shapespline.geometry import (
     CentredCurve,

@@ -1,6 +1,7 @@
 """Formats: one file and one line of the registry for each."""
 
 from shapespline.formats.atomic import check_target, write_atomically
+from shapespline.formats.csv import columns_of
 from shapespline.formats.pieces import bezier
 from shapespline.formats.preview import html_preview, svg_preview
 from shapespline.formats.registry import (
@@ -19,6 +20,7 @@ __all__ = [
     "bezier",
     "check_output",
     "check_target",
+    "columns_of",
     "html_preview",
     "read",
     "readable",

@@ -163,6 +163,20 @@ def around_airfoil(points: FloatArray) -> FloatArray | None:
     return np.concatenate([upper[::-1], lower[int(same) :]])
 
 
+def columns_of(path: Path, columns: str) -> FloatArray:
+    """Numbers in two columns of a table of text, by name or number from 1, shape (n, 2).
+
+    Raises
+    ------
+    FormatError
+        If it is no table of text, or has no such column.
+    """
+    try:
+        return parse(path.read_bytes(), columns).points
+    except FormatError as error:
+        raise FormatError(f"{path}: {error}") from error
+
+
 class Parsed(NamedTuple):
     """All points, shape (n, 2), and how many of them stand before each blank line among them."""
 

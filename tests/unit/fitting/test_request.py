@@ -9,7 +9,7 @@ from tests.support.shapes import flower, wave
 
 import shapespline as ss
 from shapespline.fitting import Request, Settings
-from shapespline.fitting.request import Estimate, OfSize, Within
+from shapespline.fitting.goals import Estimate, OfSize, Within
 from shapespline.fitting.solve import solve
 from shapespline.monitor import Monitor
 

@@ -50,8 +50,8 @@ from shapespline.engines.least_squares.starts.stations import (
     inner_maxima,
     own_number,
 )
-from shapespline.engines.least_squares.starts.trusted import FAR, standardized, start_of_some
 from shapespline.engines.least_squares.streamed import MOST_PASSES, least_squares
+from shapespline.engines.least_squares.trusted import FAR, standardized, start_of_some
 
 __all__ = [
     "DEFAULT_LIMITS",

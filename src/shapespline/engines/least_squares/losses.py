@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 # Standard deviations beyond which a loss departs from the square, [1].
 LOSSES = {"huber": 1.345, "tukey": 4.685}
+# Median of the absolute value of a standard normal variable.
+NORMAL_MEDIAN = 0.6744897501960817
 
 
 def counted(z: FloatArray, loss: str | None) -> FloatArray:

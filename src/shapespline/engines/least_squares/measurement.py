@@ -18,7 +18,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from shapespline.engines.least_squares.descent import go_on
-from shapespline.engines.least_squares.losses import LOSSES, slope_and_square, weight_factors
+from shapespline.engines.least_squares.losses import (
+    LOSSES,
+    NORMAL_MEDIAN,
+    slope_and_square,
+    weight_factors,
+)
 from shapespline.engines.least_squares.solve import parameters_in_order, run_solver
 from shapespline.engines.least_squares.starts.equidistribution import Balanced
 from shapespline.errors import InvalidInputError
@@ -35,8 +40,6 @@ if TYPE_CHECKING:
     from shapespline.typing import ArrayLike, FloatArray, IntArray
     from shapespline.values import BSplineCurve
 
-# Median of the absolute value of a standard normal variable.
-_NORMAL_MEDIAN = 0.6744897501960817
 # The fit is repeated until no weight changes by more than a part, or so many times.
 _ROUNDS, _STILL = 30, 1e-3
 # Tukey's loss forgets points: it begins from rounds of Huber's.
@@ -216,7 +219,7 @@ def _along(
     """Residuals along directions of the plane."""
     distances = ((contour.points - spline(parameters)) * directions).sum(axis=1)
     if model.covariances is None:
-        scale = median(np.abs(distances)) / _NORMAL_MEDIAN
+        scale = median(np.abs(distances)) / NORMAL_MEDIAN
         scale = max(scale, np.finfo(float).eps * contour.box_diagonal)
         return Residuals(distances, np.full(len(distances), scale))
     variances = np.einsum("ki,kij,kj->k", directions, model.covariances, directions)

@@ -9,7 +9,7 @@ import numpy as np
 from shapespline.analysis import NOISE_BAND, resolution
 from shapespline.engines.least_squares.losses import counted
 from shapespline.engines.least_squares.starts.equidistribution import Balanced, balanced_start
-from shapespline.engines.least_squares.starts.trusted import trusted_start
+from shapespline.engines.least_squares.trusted import trusted_start
 from shapespline.solvers import Limits
 from shapespline.values import Contour
 

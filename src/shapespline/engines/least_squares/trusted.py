@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis import find_outliers
-from shapespline.engines.least_squares.losses import LOSSES
+from shapespline.engines.least_squares.losses import LOSSES, NORMAL_MEDIAN
 from shapespline.engines.least_squares.solve import parameters_in_order
 from shapespline.engines.least_squares.starts.equidistribution import Balanced
 from shapespline.validation import median
@@ -27,10 +27,8 @@ if TYPE_CHECKING:
     # A start of some points with their weights.
     Make = Callable[[Contour, FloatArray | None], Start]
 
-# Rounds of leaving points out, and the deviations beyond which that is done: Tukey's.
+# Rounds of leaving points out, and the deviations beyond which that is done: Tukey's (LSQ-07).
 ROUNDS, FAR = 3, LOSSES["tukey"]
-# Median of the absolute value of a standard normal variable.
-NORMAL_MEDIAN = 0.6744897501960817
 
 
 class Trusted(NamedTuple):
