@@ -27,6 +27,7 @@ FIGURES = (
     "5-final-curve.png",
     "6-convergence.png",
 )
+DRAWINGS = tuple(f"{name.removesuffix('.png')}.svg" for name in FIGURES)
 TABLES = ("report.md", "table.csv")
 
 
@@ -60,13 +61,13 @@ def check_folder(folder: str | os.PathLike[str]) -> Path:
     if not os.access(existing, os.W_OK | os.X_OK):
         raise FormatError(f"cannot write the report to {folder}: {existing} is write-protected")
     if folder.exists():
-        for name in (*FIGURES, *TABLES, *DATA_FILES, FILM):
+        for name in (*FIGURES, *DRAWINGS, *TABLES, *DATA_FILES, FILM):
             check_target(folder / name)
     return folder
 
 
 def write_report(run: PaperRun, folder: str | os.PathLike[str]) -> list[Path]:
-    """Write the figures of a run as PNG, its table, and every intermediate result.
+    """Write the figures of a run as PNG and SVG, its table, and every intermediate result.
 
     The table is ``report.md`` and ``table.csv``. Points, H with its maxima, frames, control points
     and convergence are CSV; initial and final curve JSON, SVG and Python source for scipy; where
@@ -78,7 +79,8 @@ def write_report(run: PaperRun, folder: str | os.PathLike[str]) -> list[Path]:
     Returns
     -------
     list of Path
-        The files, in the order of ``FIGURES``, ``TABLES`` and ``DATA_FILES``, and the film.
+        The files, in the order of ``FIGURES``, ``DRAWINGS``, ``TABLES`` and ``DATA_FILES``, and
+        the film.
 
     Raises
     ------
@@ -90,8 +92,9 @@ def write_report(run: PaperRun, folder: str | os.PathLike[str]) -> list[Path]:
     folder = check_folder(folder)
     rows = report_rows(run)
     with tempfile.TemporaryDirectory() as drawn:
-        _draw(run, Path(drawn))
-        contents = {name: (Path(drawn) / name).read_bytes() for name in FIGURES}
+        for names in (FIGURES, DRAWINGS):
+            _draw(run, [Path(drawn) / name for name in names])
+        contents = {name: (Path(drawn) / name).read_bytes() for name in (*FIGURES, *DRAWINGS)}
     contents["report.md"] = _markdown(run, rows).encode()
     contents["table.csv"] = table(("quantity", "value", "relative to the box diagonal"), rows)
     contents |= data_files(run)
@@ -150,11 +153,11 @@ def report_rows(run: PaperRun) -> list[Row]:
     ]
 
 
-def _draw(run: PaperRun, folder: Path) -> None:
+def _draw(run: PaperRun, paths: list[Path]) -> None:
     """Write the six figures."""
     from shapespline.paper import figures as figures
 
-    points, cpda, frames, initial, final, convergence = (folder / name for name in FIGURES)
+    points, cpda, frames, initial, final, convergence = paths
     start, samples, length = run.start, run.start.samples, run.length
     figures.plot_points(run.contour, points, title="Data")
     figures.plot_cpda(

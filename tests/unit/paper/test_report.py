@@ -10,7 +10,7 @@ from shapespline import LITERAL
 from shapespline.errors import FormatError, ShapesplineError
 from shapespline.paper import report as paper_report
 from shapespline.paper.files import DATA_FILES
-from shapespline.paper.report import FIGURES, TABLES, check_folder, write_report
+from shapespline.paper.report import DRAWINGS, FIGURES, TABLES, check_folder, write_report
 from shapespline.paper.run import run_paper
 from shapespline.solvers.iteration import Limits
 
@@ -34,7 +34,7 @@ def test_report_is_complete_and_readable(which, tmp_path, request):
     run = request.getfixturevalue(which)
     folder = tmp_path / "figures"
     paths = write_report(run, folder)
-    assert [path.name for path in paths] == [*FIGURES, *TABLES, *DATA_FILES]
+    assert [path.name for path in paths] == [*FIGURES, *DRAWINGS, *TABLES, *DATA_FILES]
     assert sorted(folder.iterdir()) == sorted(paths)
     for name in FIGURES:
         with Image.open(folder / name) as picture:
@@ -42,6 +42,8 @@ def test_report_is_complete_and_readable(which, tmp_path, request):
             assert min(picture.size) > 400
     text = (folder / "report.md").read_text()
     assert all(f"]({name})" in text for name in FIGURES)
+    for name in DRAWINGS:
+        assert (folder / name).read_text(encoding="utf-8").rstrip().endswith("</svg>")
     rows = list(csv.reader(io.StringIO((folder / "table.csv").read_text())))
     table = {row[0]: row[1:] for row in rows}
     assert all(len(row) == 3 for row in rows)
