@@ -27,8 +27,8 @@ if TYPE_CHECKING:
         UnknownFormatError,
     )
     from shapespline.fitting import Batch, fit_curve, fit_large, fit_many, fit_shape, optimize
-    from shapespline.formats import read, write
-    from shapespline.geometry import Comparison, compare
+    from shapespline.formats import compare, read, write
+    from shapespline.geometry import Comparison
     from shapespline.paper import LITERAL, SENSIBLE, InitialCurve, Reading, initial_curve
     from shapespline.streaming import FootParameters, LargeFit
     from shapespline.tracing import trace
@@ -76,7 +76,7 @@ _HOME = {
     "Status": "values",
     "UnknownFormatError": "errors",
     "ViewBox": "values",
-    "compare": "geometry",
+    "compare": "formats",
     "fit_curve": "fitting",
     "fit_large": "fitting",
     "fit_many": "fitting",

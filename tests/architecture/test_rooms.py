@@ -60,6 +60,12 @@ EXPECTED_METHODS = {
         "FitMethods.reversed": ("geometry", "reversed_fit"),
         "FitMethods.split": ("geometry", "split_fit"),
     },
+    "values/exchanged.py": {
+        "Exchanged.__geo_interface__": ("formats", "geometry_of"),
+        "Exchanged.to_shapely": ("formats", "shapely_geometry"),
+        "Exchanged.to_geopandas": ("formats", "geopandas_series"),
+        "Exchanged.draw": ("formats", "draw_with_pen"),
+    },
     "values/shown.py": {
         "Shown._repr_svg_": ("formats", "svg_preview"),
         "Shown._repr_html_": ("formats", "html_preview"),

@@ -44,7 +44,7 @@ def fake(monkeypatch):
     monkeypatch.setitem(sys.modules, module.__name__, module)
     entry = Format("fake", (".fake",), "fake", reads=True, writes=True)
     monkeypatch.setattr(formats, "FORMATS", (*formats.FORMATS, entry))
-    monkeypatch.setattr(formats, "_as_drawing", lambda value: value)  # words will do here
+    monkeypatch.setattr(formats, "as_drawing", lambda value: value)  # words will do here
     monkeypatch.setattr(formats, "in_unit", lambda value, *_: value)
     return module
 

@@ -49,7 +49,7 @@ def test_what_is_refused(files):
         ss.read(b"", format=".csv")
     with pytest.raises(ss.FormatError, match=r"^data\.png: "):
         ss.read(b"\x89PNG and nothing else")
-    with pytest.raises(ss.InvalidInputError, match="bytes or an open file, got ndarray"):
+    with pytest.raises(ss.InvalidInputError, match="a geometry or a glyph, got ndarray"):
         ss.read(np.zeros((4, 2)))
     with pytest.raises(ss.InvalidInputError, match="format is for bytes"):
         ss.read(files[".csv"], format=".svg")

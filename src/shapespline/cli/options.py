@@ -250,7 +250,14 @@ class Reading:
         if isinstance(shape, ss.Shape):
             return shape
         contours = [fit.contour for fit in shape]
-        return ss.Shape(contours, shape.parents, shape.frame, shape.unit, colors=shape.colors)
+        return ss.Shape(
+            contours,
+            shape.parents,
+            shape.frame,
+            shape.unit,
+            colors=shape.colors,
+            reference=shape.reference,
+        )
 
 
 @dataclass(frozen=True)

@@ -66,7 +66,8 @@ def offset_drawing(drawing: Drawing, distance: float, *, tolerance: float | None
             f" {2 * abs(distance):g}"
         )
     fits = [_fitted(line, float(tolerance)) for line in lines]
-    return Drawing(fits, parents_of([fit.contour for fit in fits]), drawing.frame, drawing.unit)
+    parents = parents_of([fit.contour for fit in fits])
+    return Drawing(fits, parents, drawing.frame, drawing.unit, reference=drawing.reference)
 
 
 def _sources(drawing: Drawing, distance: float) -> list[Source]:

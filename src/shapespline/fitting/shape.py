@@ -108,7 +108,14 @@ def fit_shape(
     )
     request = DrawingRequest.of(shape, settings, shared_boundaries)
     fits = _solved(request, callback)
-    return Drawing(fits, shape.parents, shape.frame, shape.unit, colors=shape.colors)
+    return Drawing(
+        fits,
+        shape.parents,
+        shape.frame,
+        shape.unit,
+        colors=shape.colors,
+        reference=shape.reference,
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shapespline.errors import FormatError
-from shapespline.formats.cubics import groups
-from shapespline.geometry import parents_of, sampled, signed_area
+from shapespline.formats.geo import geometries, plain_lists
+from shapespline.geometry import parents_of
 from shapespline.values import Contour, Shape
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from shapespline.typing import FloatArray
-    from shapespline.values import Drawing, Fit
+    from shapespline.values import Drawing
 
 
 def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:
@@ -34,35 +34,23 @@ def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:
     -------
     bytes
         UTF-8. Outer rings run counter-clockwise, holes clockwise; positions repeat the first one
-        at the end, as RFC 7946 wants it.
+        at the end, as RFC 7946 wants it. The coordinate reference of the drawing is the member
+        ``crs`` of GeoJSON 2008, which programs still write and read; RFC 7946 has none.
 
     Raises
     ------
     InvalidInputError
         If ``chord`` is not positive, or absurdly small.
     """
-    features = []
-    for group in groups(drawing):
-        if drawing.fits[group[0]].closed:
-            rings = [
-                _ring(drawing.fits[index], chord, counter_clockwise=index == group[0])
-                for index in group
-            ]
-            geometry: dict[str, Any] = {"type": "Polygon", "coordinates": rings}
-        else:
-            contour, _ = sampled(drawing.fits[group[0]].spline, chord)
-            geometry = {"type": "LineString", "coordinates": contour.points.tolist()}
-        features.append({"type": "Feature", "properties": {}, "geometry": geometry})
-    text = json.dumps({"type": "FeatureCollection", "features": features})
+    features = [
+        {"type": "Feature", "properties": {}, "geometry": geometry}
+        for geometry in geometries(drawing, chord)
+    ]
+    document: dict[str, Any] = {"type": "FeatureCollection"}
+    if drawing.reference is not None:
+        document["crs"] = {"type": "name", "properties": {"name": drawing.reference}}
+    text = json.dumps({**document, "features": features})
     return f"{text}\n".encode()
-
-
-def _ring(fit: Fit, chord: float | None, *, counter_clockwise: bool) -> list[list[float]]:
-    contour, _ = sampled(fit.spline, chord)
-    points = contour.points
-    if (signed_area(points) > 0) != counter_clockwise:
-        points = points[::-1]
-    return [*points.tolist(), points[0].tolist()]
 
 
 def read(path: Path, *, closed: bool | None = None) -> Shape:
@@ -86,11 +74,31 @@ def read(path: Path, *, closed: bool | None = None) -> Shape:
         held = json.loads(path.read_bytes())
     except (ValueError, RecursionError) as error:
         raise FormatError(f"no JSON: {error}") from error
+    return shape_of(held, closed, _said_reference(held))
+
+
+def shape_of(held: Any, closed: bool | None, reference: str | None) -> Shape:
+    """Lines and polygons of GeoJSON as an object.
+
+    Raises
+    ------
+    FormatError
+        If it is no GeoJSON, or holds neither a line nor a polygon.
+    """
     found = list(_lines(held))
     if not found:
-        raise FormatError("no line and no polygon in the file; points alone make no outline")
+        raise FormatError("no line and no polygon; points alone make no outline")
     contours = [Contour(points, True if ring else closed) for points, ring in found]
-    return Shape(contours, parents_of(contours))
+    return Shape(contours, parents_of(contours), reference=reference)
+
+
+def _said_reference(held: Any) -> str | None:
+    """The coordinate reference that a document of GeoJSON 2008 names."""
+    try:
+        name = held["crs"]["properties"]["name"]
+    except (KeyError, TypeError):
+        return None
+    return name if isinstance(name, str) and name.strip() else None
 
 
 def _lines(value: Any) -> Iterator[tuple[FloatArray, bool]]:
@@ -108,7 +116,7 @@ def _lines(value: Any) -> Iterator[tuple[FloatArray, bool]]:
         for geometry in _list(value, "geometries"):
             yield from _lines(geometry)
     elif kind == "LineString":
-        yield _points(value.get("coordinates"), kind), False
+        yield _points(plain_lists(value.get("coordinates")), kind), False
     elif kind in ("MultiLineString", "Polygon"):
         for line in _list(value, "coordinates"):
             yield _points(line, kind), kind == "Polygon"
@@ -123,9 +131,10 @@ def _lines(value: Any) -> Iterator[tuple[FloatArray, bool]]:
 
 
 def _list(value: dict[str, Any], name: str) -> list[Any]:
-    if not isinstance(value.get(name), list):
+    items = plain_lists(value.get(name)) if name == "coordinates" else value.get(name)
+    if not isinstance(items, list | tuple):
         raise FormatError(f"{name} of a {value['type']} must be a list")
-    return list(value[name])
+    return list(items)
 
 
 def _points(positions: Any, kind: str) -> FloatArray:

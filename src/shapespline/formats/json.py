@@ -8,6 +8,7 @@ It is one object::
     frame    {x, y, width, height} or null
     parents  for each fit the index of the one directly around it, -1 for none
     colors   for each fit its colour as #rrggbb or null; not there if no fit has one
+    reference  name of the coordinate reference system; not there if it is not known
     fits     objects with the fields of shapespline.drawing.Fit:
         spline       {degree, periodic, knots, control_points: distinct, as [x, y]}
         contour      {closed, points: as [x, y], source: null if each point stands for itself,
@@ -72,6 +73,7 @@ LINE_LENGTH = 100
 DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
 FIT_FIELDS += ("status", "history", "method", "sections", "outliers", "uncertainty")
+NOT_ALWAYS = ("colors", "reference")  # in a document only where a drawing has them
 DRAWING_FIELDS = ("format", "version", "unit", "frame", "parents", "fits")
 CONTOUR_FIELDS: tuple[str, ...] = ("closed", "points", "source", "accuracy")
 COUNTS = ("iteration", "evaluations")  # the columns of the history that hold integers
@@ -117,8 +119,8 @@ def encode(drawing: Drawing) -> bytes:
         "parents": list(drawing.parents),
         "fits": [_fit_document(fit) for fit in drawing],
     }
-    if any(drawing.colors):
-        document["colors"] = list(drawing.colors)
+    beside = {"colors": any(drawing.colors) and [*drawing.colors], "reference": drawing.reference}
+    document |= {name: beside[name] for name in NOT_ALWAYS if beside[name]}
     return (_laid_out(document, 0) + "\n").encode("ascii")
 
 
@@ -264,7 +266,7 @@ def _drawing(document: object) -> Drawing:
         raise FormatError(
             f"version {version} is unknown, this program reads versions {VERSION} and {WITH_ARCS}"
         )
-    known = DRAWING_FIELDS + (("colors",) if "colors" in document else ())
+    known = DRAWING_FIELDS + tuple(name for name in NOT_ALWAYS if name in document)
     fields = checked_object(document, "the drawing", known)
     items = checked_list(fields["fits"], "fits")
     parents = checked_indices(fields["parents"], "parents", -1, len(items))
@@ -279,11 +281,10 @@ def _drawing(document: object) -> Drawing:
     if unit is not None and unit not in UNITS:
         raise FormatError(f"unit must be null or one of {', '.join(UNITS)}, found {unit!r}")
     fits = [_fit(item, f"fits[{i}]") for i, item in enumerate(items)]
-    colors = fields.get("colors")
-    if colors is not None:
-        colors = checked_list(colors, "colors")
+    colors, reference = fields.get("colors"), fields.get("reference")
+    colors = None if colors is None else checked_list(colors, "colors")
     try:
-        return Drawing(fits, parents, frame, unit, colors=colors)
+        return Drawing(fits, parents, frame, unit, colors=colors, reference=reference)
     except InvalidInputError as error:
         raise FormatError(str(error)) from error
 

@@ -10,7 +10,6 @@ met.
 
 from __future__ import annotations
 
-import inspect
 import warnings
 from dataclasses import dataclass
 from importlib import import_module
@@ -20,21 +19,23 @@ from typing import TYPE_CHECKING, cast
 from shapespline.errors import (
     ArcsAsCurvesWarning,
     FormatError,
-    InvalidInputError,
     ShapesplineError,
     UnknownFormatError,
     caller_level,
 )
 from shapespline.formats.atomic import check_target, write_atomically
+from shapespline.formats.known import known_options
+from shapespline.formats.objects import read_object
 from shapespline.formats.sources import as_path
-from shapespline.geometry import Outlines, exact_drawing, in_unit, polygon_drawing
-from shapespline.values import Contour, Drawing, Fit, Shape
+from shapespline.geometry import Outlines, as_drawing, exact_drawing, in_unit
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Mapping
 
-    from shapespline.formats.sources import Source
+    from shapespline.formats.sources import File, Source
+    from shapespline.geometry import Drawable
+    from shapespline.values import Drawing, Shape
 
 
 __all__ = [
@@ -82,6 +83,7 @@ FORMATS = (
     Format("3dm", (".3dm",), "rhino", reads=True, writes=True),
     Format("GeoJSON", (".geojson",), "geojson", reads=True, writes=True, arcs=False),
     Format("G-code", (".nc",), "gcode", writes=True),
+    Format("GLIF", (".glif",), "glif", reads=True, writes=True, arcs=False),
     Format("PDF", (".pdf",), "pdf", writes=True, arcs=False),
     Format("Python", (".py",), "python", writes=True),
 )
@@ -103,8 +105,10 @@ def read(
 
     Parameters
     ----------
-    path : path-like, bytes or open file
-        Bytes and open files are read whole.
+    path : path-like, bytes, open file, geometry or glyph
+        Bytes and open files are read whole. A geometry has ``__geo_interface__`` (shapely,
+        geopandas and others; a coordinate reference is kept); a glyph has ``draw(pen)``
+        (fontTools, ufoLib2, defcon) and may take ``glyph_set``, where its components are.
     format : str, optional
         The ending, such as ".csv", of bytes or an open file whose kind neither its name nor its
         first bytes tell: PNG, JPEG, TIFF, BMP, NumPy, SVG, STEP and 3dm tell it.
@@ -148,11 +152,14 @@ def read(
     Traceback (most recent call last):
     ...
     shapespline.errors.UnknownFormatError: outline.xyz: no reader for '.xyz'; readable endings: \
-.3dm .bmp .csv .dat .dxf .geojson .gif .iges .igs .jpeg .jpg .json .npy .png .step .stp .svg .tif \
-.tiff .tsv .txt .webp .xy
+.3dm .bmp .csv .dat .dxf .geojson .gif .glif .iges .igs .jpeg .jpg .json .npy .png .step .stp .svg \
+.tif .tiff .tsv .txt .webp .xy
     """
     options |= {"closed": closed, "y_down": y_down or None}
-    with as_path(path, format) as file:
+    held = read_object(path, options)
+    if held is not None:
+        return _as_wanted(held, unit, scale, dpi, sampling)
+    with as_path(cast("File", path), format) as file:
         return _read(file, options, lambda found: _as_wanted(found, unit, scale, dpi, sampling))
 
 
@@ -210,7 +217,7 @@ def check_output(path: str | os.PathLike[str], **options: object) -> None:
 
 def write(
     path: str | os.PathLike[str],
-    drawing: Drawing | Fit | Shape | Contour,
+    drawing: Drawable,
     *,
     unit: str | None = None,
     scale: float | None = None,
@@ -221,8 +228,9 @@ def write(
     Parameters
     ----------
     path : path-like
-    drawing : Drawing, Fit, Shape or Contour
-        Outlines that have not been fitted are written as polylines.
+    drawing : Drawing, Fit, Shape or Contour, or a list of fits or contours
+        Outlines that have not been fitted are written as polylines; those of a list are nested by
+        containment.
     unit : str, optional
         The unit of the file, such as "mm" or "in". Coordinates are converted if the unit of the
         drawing is known, otherwise they are in this unit.
@@ -251,7 +259,7 @@ def write(
     encode = _function(path, "encode")
     arguments = _checked(path, encode, options)
     check_target(path)
-    held = cast("Drawing", in_unit(_as_drawing(drawing), unit, scale))
+    held = cast("Drawing", in_unit(as_drawing(drawing), unit, scale))
     _say_of_arcs(path, held)
     write_atomically(path, cast("bytes", encode(held, **arguments)))
 
@@ -268,21 +276,6 @@ def _say_of_arcs(path: Path, drawing: Drawing) -> None:
             ArcsAsCurvesWarning,
             stacklevel=caller_level(),
         )
-
-
-def _as_drawing(value: Drawing | Fit | Shape | Contour) -> Drawing:
-    if isinstance(value, Drawing):
-        return value
-    if isinstance(value, Fit):
-        return Drawing([value])
-    if isinstance(value, Contour):
-        value = Shape([value])
-    if isinstance(value, Shape):
-        return polygon_drawing(value)
-    raise InvalidInputError(
-        f"drawing must be a Drawing, Fit, Shape or Contour, got {type(value).__name__};"
-        " make one with fit_shape or fit_curve"
-    )
 
 
 def readable() -> tuple[str, ...]:
@@ -319,19 +312,7 @@ def _checked(
     path: Path, function: Callable[..., object], options: Mapping[str, object]
 ) -> dict[str, object]:
     """Options that were given, all of them known to the format's function."""
-    known = [
-        name
-        for name, parameter in inspect.signature(function).parameters.items()
-        if parameter.kind is inspect.Parameter.KEYWORD_ONLY
-    ]
-    given = {name: value for name, value in options.items() if value is not None}
-    for name in given:
-        if name not in known:
-            takes = f"take {', '.join(known)}" if known else "take no options"
-            raise InvalidInputError(
-                f"{name} is not an option for {path.name}: {path.suffix} files {takes}"
-            )
-    return given
+    return known_options(path.name, f"{path.suffix} files", function, options)
 
 
 def _check_source(path: Path) -> None:

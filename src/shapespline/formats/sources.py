@@ -6,14 +6,31 @@ import os
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, Protocol
 
 from shapespline.errors import InvalidInputError, UnknownFormatError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-Source = str | os.PathLike[str] | bytes | IO[Any]
+
+class Geometry(Protocol):
+    """What shapely, geopandas and others hold."""
+
+    @property
+    def __geo_interface__(self) -> Any:
+        """GeoJSON as an object."""
+
+
+class Glyph(Protocol):
+    """What fontTools, ufoLib2, defcon and others hold."""
+
+    def draw(self, pen: Any) -> Any:
+        """Draw its outlines with a pen."""
+
+
+File = str | os.PathLike[str] | bytes | IO[Any]
+Source = File | Geometry | Glyph
 
 # How files begin whose kind can be told from that.
 BEGINNINGS = (
@@ -31,7 +48,7 @@ HEAD = 4096
 
 
 @contextmanager
-def as_path(source: Source, ending: str | None) -> Iterator[Path]:
+def as_path(source: File, ending: str | None) -> Iterator[Path]:
     """The path of a source; of bytes and open files that of a copy, while the context lasts.
 
     The kind is told by ``ending``, else by the name of the file, else by the first bytes.
@@ -56,7 +73,7 @@ def as_path(source: Source, ending: str | None) -> Iterator[Path]:
     if not isinstance(source, bytes | bytearray | memoryview):
         if not hasattr(source, "read"):
             raise InvalidInputError(
-                "path must be a path, bytes or an open file, got"
+                "path must be a path, bytes, an open file, a geometry or a glyph, got"
                 f" {type(source).__name__}; points make a Contour, pixels go to trace"
             )
         given = getattr(source, "name", "")

@@ -2,7 +2,7 @@
 
 from shapespline.geometry.bands import confidence_band, curve_motion, unit_normals
 from shapespline.geometry.biarcs import arc_polyline
-from shapespline.geometry.comparison import Comparison, compare
+from shapespline.geometry.comparison import Comparison, Curves, compare
 from shapespline.geometry.distances import (
     FLOOR,
     CentredCurve,
@@ -27,7 +27,7 @@ from shapespline.geometry.nearest import nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
 from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
-from shapespline.geometry.polygons import polygon_drawing
+from shapespline.geometry.polygons import Drawable, as_drawing, polygon_drawing
 from shapespline.geometry.reversal import backwards, reversed_curve
 from shapespline.geometry.scaling import in_unit
 
@@ -37,11 +37,14 @@ __all__ = [
     "Box",
     "CentredCurve",
     "Comparison",
+    "Curves",
     "Distances",
+    "Drawable",
     "OffsetLine",
     "Outlines",
     "Source",
     "arc_polyline",
+    "as_drawing",
     "backwards",
     "bounds",
     "bulge_piece",

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 
+from shapespline.errors import InvalidInputError
 from shapespline.geometry.distances import two_sided_distance
-from shapespline.values import BSplineCurve, Drawing, Fit, Piece, Status
+from shapespline.geometry.nesting import parents_of
+from shapespline.values import BSplineCurve, Contour, Drawing, Fit, Piece, Shape, Status
 
-if TYPE_CHECKING:
-    from shapespline.values import Contour, Shape
+Drawable: TypeAlias = Drawing | Shape | Fit | Contour | Sequence[Fit] | Sequence[Contour]
 
 
 def polyline_curve(contour: Contour) -> BSplineCurve:
@@ -40,7 +42,48 @@ def polygon_drawing(shape: Shape) -> Drawing:
     (4, True, True)
     """
     fits = [_polygon_fit(contour) for contour in shape]
-    return Drawing(fits, shape.parents, shape.frame, shape.unit, colors=shape.colors)
+    return Drawing(
+        fits,
+        shape.parents,
+        shape.frame,
+        shape.unit,
+        colors=shape.colors,
+        reference=shape.reference,
+    )
+
+
+def as_drawing(value: Drawable) -> Drawing:
+    """What can be drawn as a drawing: contours as they are, several nested by containment.
+
+    Raises
+    ------
+    InvalidInputError
+        If it is none of them.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> square = Contour([(0, 0), (3, 0), (3, 3), (0, 3)], closed=True)
+    >>> hole = Contour([(1, 1), (2, 1), (2, 2)], closed=True)
+    >>> as_drawing([square, hole]).parents
+    (-1, 0)
+    """
+    if isinstance(value, Drawing):
+        return value
+    if isinstance(value, Shape):
+        return polygon_drawing(value)
+    items = [value] if isinstance(value, Fit | Contour) else value
+    if isinstance(items, Sequence) and items:
+        fits = [item for item in items if isinstance(item, Fit)]
+        contours = [item for item in items if isinstance(item, Contour)]
+        if len(fits) == len(items):
+            return Drawing(fits, parents_of([fit.contour for fit in fits]))
+        if len(contours) == len(items):
+            return polygon_drawing(Shape(contours, parents_of(contours)))
+    raise InvalidInputError(
+        "drawing must be a Drawing, Shape, Fit or Contour, or a list of fits or contours, got"
+        f" {type(value).__name__}; make one with fit_shape or fit_curve"
+    )
 
 
 def _polygon_fit(contour: Contour) -> Fit:

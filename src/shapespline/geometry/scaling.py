@@ -79,6 +79,8 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
     The history of a fit is in the unit of its own problem and stays behind unless the factor is 1.
     """
     frame = None if value.frame is None else ViewBox(*(factor * side for side in value.frame))
+    # Other numbers are no places of it any more.
+    reference = None if factor != 1.0 or isinstance(value, Outlines) else value.reference
     if isinstance(value, Shape):
         left_out = [_contour(item, factor) for item in value.left_out]
         contours = [_contour(item, factor) for item in value]
@@ -91,11 +93,12 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
             left_out=left_out,
             colors=value.colors,
             widths=widths,
+            reference=reference,
         )
     if isinstance(value, Outlines):
         return Outlines([_pieces(item, factor) for item in value.curves], frame, unit)
     fits = [_fit(item, factor) for item in value]
-    return Drawing(fits, value.parents, frame, unit, colors=value.colors)
+    return Drawing(fits, value.parents, frame, unit, colors=value.colors, reference=reference)
 
 
 def _contour(contour: Contour, factor: float) -> Contour:

@@ -23,6 +23,7 @@ from shapespline.errors import (
 )
 from shapespline.validation import float_array, is_number
 from shapespline.values.equality import ByValue
+from shapespline.values.exchanged import Exchanged
 from shapespline.values.shown import Shown
 
 if TYPE_CHECKING:
@@ -117,7 +118,7 @@ def _looks_closed(points: FloatArray) -> bool:
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Contour(ByValue, Shown):
+class Contour(ByValue, Shown, Exchanged):
     """One outline: ordered points in the plane, open or closed.
 
     Consecutive equal points are dropped (with a :class:`DroppedPointsWarning`); the repeated

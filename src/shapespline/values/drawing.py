@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING
 
 from shapespline.errors import InvalidInputError
 from shapespline.units import checked_unit
-from shapespline.values.shape import checked_colors, checked_parents, counted, nesting_depth
+from shapespline.values.shape import (
+    checked_colors,
+    checked_parents,
+    checked_reference,
+    counted,
+    nesting_depth,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -20,12 +26,13 @@ if TYPE_CHECKING:
     from shapespline.typing import ArrayLike
     from shapespline.values.view_box import ViewBox
 from shapespline.values.equality import ByValue
+from shapespline.values.exchanged import Exchanged
 from shapespline.values.fit import Fit
 from shapespline.values.shown import Shown
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Drawing(ByValue, Shown):
+class Drawing(ByValue, Shown, Exchanged):
     """Fits with the nesting of the shape they came from.
 
     Parameters
@@ -40,6 +47,8 @@ class Drawing(ByValue, Shown):
     colors : sequence of str or None, optional
         For each fit the colour of the area within it, as #rrggbb; None, the default, for a hole
         and where no colour is known.
+    reference : str, optional
+        Coordinate reference system of the points, such as "EPSG:25832", if known.
     """
 
     fits: tuple[Fit, ...]
@@ -47,6 +56,7 @@ class Drawing(ByValue, Shown):
     frame: ViewBox | None
     unit: str | None
     colors: tuple[str | None, ...]
+    reference: str | None
 
     def __init__(
         self,
@@ -56,6 +66,7 @@ class Drawing(ByValue, Shown):
         unit: str | None = None,
         *,
         colors: Sequence[str | None] | None = None,
+        reference: str | None = None,
     ) -> None:
         fits = (fits,) if isinstance(fits, Fit) else tuple(fits)
         if not fits:
@@ -68,6 +79,7 @@ class Drawing(ByValue, Shown):
         object.__setattr__(self, "frame", frame)
         object.__setattr__(self, "unit", checked_unit(unit))
         object.__setattr__(self, "colors", checked_colors(colors, len(fits)))
+        object.__setattr__(self, "reference", checked_reference(reference))
 
     def __len__(self) -> int:
         return len(self.fits)

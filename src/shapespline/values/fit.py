@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from shapespline.values.uncertainty import Band, Uncertainty
 from shapespline.values.curve import BSplineCurve
 from shapespline.values.equality import ByValue
+from shapespline.values.exchanged import Exchanged
 from shapespline.values.fit_methods import FitMethods
 from shapespline.values.piece import CORNER_TURN, Piece
 from shapespline.values.shape import counted
@@ -63,7 +64,7 @@ Status.CANCELLED = Status("CANCELLED", "the callback cancelled the fit")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Fit(ByValue, Shown, FitMethods):
+class Fit(ByValue, Shown, Exchanged, FitMethods):
     """A curve fitted to a contour, and what is known about it.
 
     Fits are equal when curve, data, figures and the name of the status are; their histories, which

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 from shapespline.validation import is_number
 from shapespline.values.contour import Contour, checked_contour
 from shapespline.values.equality import ByValue
+from shapespline.values.exchanged import Exchanged
 from shapespline.values.shown import Shown
 
 _COLOR = re.compile("#[0-9a-f]{6}")
@@ -109,8 +110,23 @@ def checked_widths(widths: Sequence[float | None] | None, count: int) -> tuple[f
     return tuple(None if width is None else float(width) for width in widths)
 
 
+def checked_reference(reference: object) -> str | None:
+    """The name of a coordinate reference system, or None.
+
+    Raises
+    ------
+    InvalidInputError
+        If it is no text.
+    """
+    if reference is None or (isinstance(reference, str) and reference.strip()):
+        return reference
+    raise InvalidInputError(
+        f"reference must name a coordinate reference system such as 'EPSG:25832', got {reference!r}"
+    )
+
+
 @dataclass(frozen=True, eq=False, init=False)
-class Shape(ByValue, Shown):
+class Shape(ByValue, Shown, Exchanged):
     """What a file holds: contours and which lies directly inside which.
 
     Parameters
@@ -130,6 +146,8 @@ class Shape(ByValue, Shown):
     widths : sequence of float or None, optional
         For each contour that is the centre line of a stroke, how wide the stroke is, in the unit of
         the coordinates; None, the default, for others.
+    reference : str, optional
+        Coordinate reference system of the points, such as "EPSG:25832", if known.
 
     Examples
     --------
@@ -147,6 +165,7 @@ class Shape(ByValue, Shown):
     left_out: tuple[Contour, ...] = field(repr=False)
     colors: tuple[str | None, ...] = field(repr=False)
     widths: tuple[float | None, ...] = field(repr=False)
+    reference: str | None = field(repr=False)
 
     def __init__(
         self,
@@ -158,6 +177,7 @@ class Shape(ByValue, Shown):
         left_out: Sequence[Contour] = (),
         colors: Sequence[str | None] | None = None,
         widths: Sequence[float | None] | None = None,
+        reference: str | None = None,
     ) -> None:
         contours, left_out = tuple(contours), tuple(left_out)
         if not contours:
@@ -173,6 +193,7 @@ class Shape(ByValue, Shown):
         object.__setattr__(self, "left_out", left_out)
         object.__setattr__(self, "colors", checked_colors(colors, len(contours)))
         object.__setattr__(self, "widths", checked_widths(widths, len(contours)))
+        object.__setattr__(self, "reference", checked_reference(reference))
 
     def __len__(self) -> int:
         return len(self.contours)

@@ -7,6 +7,7 @@ import pytest
 from tests.support.shapes import on_circle
 
 import shapespline as ss
+from shapespline.geometry import compare as compare_curves
 
 
 def test_circles_of_two_radii():
@@ -54,4 +55,28 @@ def test_fits_and_drawings_compare_by_their_curves():
 
 def test_anything_else_is_refused():
     with pytest.raises(ss.InvalidInputError, match="second must be a Drawing, Fit, Shape"):
-        ss.compare(ss.Contour([(0, 0), (1, 0)]), "logo.svg")
+        compare_curves(ss.Contour([(0, 0), (1, 0)]), 3)
+    for wrong, sentence in (("nowhere.svg", "there is no such file"), (3, r"shape \(n, 2\)")):
+        with pytest.raises(ss.ShapesplineError, match=sentence):
+            ss.compare(ss.Contour([(0, 0), (1, 0)]), wrong)
+
+
+def test_files_and_points_are_compared_as_what_they_hold(tmp_path):
+    points = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (4.0, 0.0), (4.0, 1.0)]
+    contour = ss.Contour(points, closed=False)
+    lower = ss.Contour([(0, -1), (4, -1), (4, 3)], closed=False)
+    expected = ss.compare(contour, lower)
+    ss.write(tmp_path / "a.json", [contour])
+    assert ss.compare(tmp_path / "a.json", lower) == expected
+    assert ss.compare(str(tmp_path / "a.json"), lower) == expected
+    assert ss.compare(points, lower) == ss.compare(np.array(points), lower) == expected
+
+
+def test_a_list_of_fits_is_written_with_its_nesting(tmp_path):
+    corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    fits = [ss.fit_curve(size * corners, closed=True, tolerance=0.1) for size in (1, 3)]
+    ss.write(tmp_path / "two.json", fits)
+    assert ss.read(tmp_path / "two.json").parents == (1, -1)
+    for wrong in ([], [fits[0], 3], 3):
+        with pytest.raises(ss.InvalidInputError, match="or a list of fits or contours"):
+            ss.write(tmp_path / "no.json", wrong)
