@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from numbers import Integral, Real
 from typing import TYPE_CHECKING
 
@@ -26,7 +27,8 @@ def float_array(values: ArrayLike, name: str) -> FloatArray:
     >>> float_array([1, 2], "weights").tolist()
     [1.0, 2.0]
     """
-    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+    masked = sys.modules.get("numpy.ma")  # whoever has a masked array has imported it
+    if masked is not None and isinstance(values, masked.MaskedArray) and masked.is_masked(values):
         raise InvalidInputError(f"{name} must not be masked; drop the masked rows first")
     try:
         array = np.asarray(values)

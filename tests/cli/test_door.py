@@ -1,5 +1,6 @@
 """What a person meets first: names that are found, settings, sizes, help, exit codes, progress."""
 
+import contextlib
 import json
 import sys
 import time
@@ -234,3 +235,21 @@ def test_errors_of_points_are_a_length_or_a_column(shapespline, desk):
     code, _, err = shapespline("fit", "table.csv", "--sigma", "ex", "-t", 1, "-o", "no.svg")
     assert code == 1
     assert "not within a tolerance" in err
+
+
+def test_a_picture_is_read_once_for_its_width(shapespline, desk, monkeypatch):
+    read, seen = ss.read, []
+    monkeypatch.setattr(ss, "read", lambda *a, **o: seen.append(a) or read(*a, **o), raising=False)
+    assert shapespline("fit", "logo.png", "--width", 120, "--unit", "mm", "-o", "once.svg")[0] == 0
+    assert len(seen) == 1
+
+
+def test_what_is_going_on_names_the_curve(shapespline, desk, monkeypatch):
+    said = []
+    monkeypatch.setattr(
+        "shapespline.cli.fit.said_when_long", lambda on: contextlib.nullcontext(said.append)
+    )
+    assert shapespline("fit", "logo.png", "-o", "told.svg")[0] == 0
+    n = len(ss.read("logo.png"))
+    curves = [sentence.partition(",")[0] for sentence in said if sentence.startswith("curve")]
+    assert curves == [f"curve {index + 1} of {n}" for index in range(n)]

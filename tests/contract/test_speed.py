@@ -7,6 +7,7 @@ import warnings
 
 import numpy as np
 import pytest
+from benchmarks.door import waited, ways
 from benchmarks.scale import median_of, splprep_seconds, wiggly
 
 import shapespline as ss
@@ -51,3 +52,15 @@ def test_points_that_scatter_do_not_take_minutes():
     clean = median_of(lambda: ss.fit_curve(wiggly(100_000), closed=True, tolerance=0.1), 3)
     # Measured: 4 times; before averages stood for points 500 times.
     assert median_of(lambda: ss.fit_curve(points, closed=True, tolerance=0.1), 1) < 25 * clean
+
+
+def test_nobody_waits_at_the_door(tmp_path):
+    # Seconds of processor. Measured: 0.1, 1.5 and 4 times those of numpy's import (PKG-07).
+    found = {
+        name: waited(arguments, str(tmp_path), runs=3).processor
+        for name, arguments in ways(str(tmp_path)).items()
+    }
+    numpy = found["import numpy"]
+    assert found["import shapespline"] - found["python -c pass"] < 0.5 * numpy
+    assert found["shapespline --help"] < 4 * numpy
+    assert found["one small fit"] < 12 * numpy

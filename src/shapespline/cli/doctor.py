@@ -6,7 +6,6 @@ import os
 import platform
 import sys
 import time
-from importlib import metadata, util
 
 import typer
 
@@ -14,13 +13,22 @@ import shapespline as ss
 
 CORE = ("numpy", "scipy", "pillow", "contourpy", "ezdxf", "svgelements", "typer")
 # Extra -> the module that it brings.
-EXTRAS = {"plot": "matplotlib", "cad": "OCP", "rhino": "rhino3dm", "cluster": "dask"}
+EXTRAS = {
+    "plot": "matplotlib",
+    "cad": "OCP",
+    "rhino": "rhino3dm",
+    "geo": "geopandas",
+    "fonts": "fontTools.ufoLib",
+    "cluster": "dask",
+}
 
 
 def doctor() -> None:
     """Print versions and extras, and fit a known curve, to see whether all is well."""
     typer.echo(f"shapespline {ss.__version__}, Python {platform.python_version()}, {sys.platform}")
     typer.echo(", ".join(f"{name} {_version(name)}" for name in CORE))
+    from importlib import util
+
     for extra, module in EXTRAS.items():
         there = util.find_spec(module) is not None
         typer.echo(f"{extra}: {'yes' if there else f'no; pip install shapespline[{extra}]'}")
@@ -35,6 +43,8 @@ def doctor() -> None:
 
 
 def _version(name: str) -> str:
+    from importlib import metadata
+
     try:
         return metadata.version(name)
     except metadata.PackageNotFoundError:

@@ -20,7 +20,7 @@ from shapespline.cli.run_files import Batch, run_files
 from shapespline.cli.waiting import said_when_long
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import numpy as np
 
@@ -60,10 +60,8 @@ class FitFile:
             large = self.mapped(source)
             if large is None:
                 shape = self.reading.outlines(source, self.settings.tolerance)
-                n_points = sum(len(contour) for contour in shape)
-                say(f"fitting {len(shape)} outlines of {n_points} points; --time-limit ends it")
                 began = time.perf_counter()
-                drawing = self.fitted(shape, source)
+                drawing = self.fitted(shape, source, say)
             else:
                 began = time.perf_counter()
                 drawing = self.fitted_in_passes(large)
@@ -84,7 +82,7 @@ class FitFile:
             exceeded=any(not fit.kept for fit in drawing),
         )
 
-    def fitted(self, shape: ss.Shape, source: Path) -> ss.Drawing:
+    def fitted(self, shape: ss.Shape, source: Path, say: Callable[[str], None]) -> ss.Drawing:
         """The fit of a shape in memory; areas of colours share their boundaries."""
         asked = self.settings.to_dict()
         if self.sigma_columns is not None:
@@ -93,7 +91,15 @@ class FitFile:
         accuracy = shape.longest.accuracy
         if any(shape.colors) and accuracy and not asked.keys() & WANTED:
             asked["tolerance"] = AREA_TOLERANCE * accuracy
-        return ss.fit_shape(shape, shared_boundaries=shared, **asked)
+        n_points = sum(len(contour) for contour in shape)
+
+        def tell(done: int, total: int) -> None:
+            if done == total:
+                say(f"all {total} curves fitted, now those that cross")
+            else:
+                say(f"curve {done + 1} of {total}, {n_points} points in all; --time-limit ends it")
+
+        return ss.fit_shape(shape, shared_boundaries=shared, progress=tell, **asked)
 
     def mapped(self, source: Path) -> np.memmap | None:
         """The points of a file that is too large to be read at once, if there is no other need."""

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import contextlib
-import multiprocessing
 import signal
 import sys
 import warnings
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from typing import TYPE_CHECKING
 
 import shapespline as ss
@@ -40,6 +38,8 @@ def run_all(
                 yield _guarded(work, source, target)
                 advance()
             return
+        from concurrent.futures import as_completed
+
         futures: dict[Future[Report], Path] = {
             executor.submit(_guarded, work, source, target): source for source, target in pairs
         }
@@ -87,6 +87,8 @@ def _executor(n_jobs: int, n_pairs: int, scheduler: str | None) -> Iterator[Exec
     elif n_jobs == 1 or n_pairs == 1:
         yield None
     else:
+        from concurrent.futures import ProcessPoolExecutor
+
         with ProcessPoolExecutor(min(n_jobs, n_pairs), initializer=_leave_to_parent) as executor:
             yield executor
 
@@ -112,6 +114,8 @@ def _progress(total: int) -> Iterator[Callable[[], object]]:
 @contextlib.contextmanager
 def point_progress() -> Iterator[Callable[[int, int], object] | None]:
     """A bar of the points passed of one long outline; not beside other workers."""
+    import multiprocessing
+
     if not sys.stderr.isatty() or multiprocessing.parent_process() is not None:
         yield None
         return

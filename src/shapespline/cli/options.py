@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 from enum import StrEnum
 from math import inf
 from pathlib import Path  # noqa: TC003 - typer reads annotations
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
@@ -211,19 +211,25 @@ class Reading:
         if not 0 < self.width < inf:
             raise ss.InvalidInputError(f"--width must be a positive number, got {self.width:g}")
         given = {name: value for name, value in self.given().items() if name != "unit"}
-        factor = self.width / width_of(ss.read(path, **given))
-        found = ss.read(path, scale=factor, sampling=sampling, **given)
-        parents, frame, colors = found.parents, found.frame, found.colors
-        if isinstance(found, ss.Drawing):
-            return ss.Drawing(found.fits, parents, frame, self.unit, colors=colors)
+        read = ss.read(path, **given)
+        factor = self.width / width_of(read)
+        if isinstance(read, ss.Drawing):  # exact curves are sampled in their new size
+            again = ss.read(path, scale=factor, sampling=sampling, **given)
+            found = cast("Drawing", again)
+            return ss.Drawing(
+                found.fits, found.parents, found.frame, self.unit, colors=found.colors
+            )
+        from shapespline.geometry import in_unit
+
+        shape = cast("Shape", in_unit(read, scale=factor))
         return ss.Shape(
-            found.contours,
-            parents,
-            frame,
+            shape.contours,
+            shape.parents,
+            shape.frame,
             self.unit,
-            left_out=found.left_out,
-            colors=colors,
-            widths=found.widths,
+            left_out=shape.left_out,
+            colors=shape.colors,
+            widths=shape.widths,
         )
 
     def errors(self, path: Path, columns: str) -> np.ndarray:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sized
-from concurrent.futures import as_completed
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -121,6 +120,8 @@ def _completed(
         return
     if hasattr(executor, "get_executor"):  # a dask client
         executor = executor.get_executor()
+    from concurrent.futures import as_completed
+
     futures: dict[Future[list[Outcome]], range] = {}
     try:
         for task in _tasks(contours):

@@ -20,7 +20,7 @@ from shapespline.validation import checked_flag
 from shapespline.values import Contour, Drawing, Shape
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from shapespline.monitor import Callback
     from shapespline.typing import ArrayLike, CornerChoice, Effort, Ends, Form, Loss
@@ -48,6 +48,7 @@ def fit_shape(
     sigma: ArrayLike | None = None,
     loss: Loss | None = None,
     shared_boundaries: bool = False,
+    progress: Callable[[int, int], object] | None = None,
 ) -> Drawing:
     """Fit a B-spline curve to each contour of a shape.
 
@@ -67,6 +68,8 @@ def fit_shape(
     shared_boundaries : bool
         Fit boundaries that contours share (the same points, as far as a hundredth of the
         tolerance) once: their pieces are the same in both to the bit. Needs a tolerance.
+    progress : callable, optional
+        Called with the number of curves done and of all, before each and at the end.
 
     Returns
     -------
@@ -107,7 +110,7 @@ def fit_shape(
         time_limit=time_limit,
     )
     request = DrawingRequest.of(shape, settings, shared_boundaries)
-    fits = _solved(request, callback)
+    fits = _solved(request, callback, progress or _silent)
     return Drawing(
         fits,
         shape.parents,
@@ -159,7 +162,13 @@ class DrawingRequest:
             raise type(error)(f"contour {index} of {len(self.shape)}: {error}") from error
 
 
-def _solved(request: DrawingRequest, callback: Callback | None) -> list[Fit]:
+def _silent(done: int, total: int) -> None:
+    """Where nobody wants to hear of progress."""
+
+
+def _solved(
+    request: DrawingRequest, callback: Callback | None, progress: Callable[[int, int], object]
+) -> list[Fit]:
     """The fit of each contour."""
 
     def monitor() -> Monitor:
@@ -169,25 +178,44 @@ def _solved(request: DrawingRequest, callback: Callback | None) -> list[Fit]:
         return answer(sub_request, monitor())
 
     if request.shared_boundaries:
-        return _with_shared(request, monitor)
+        return _with_shared(request, monitor, progress)
     requests = [request.of_contour(index) for index in range(len(request.shape))]
-    fits = [solve(one, monitor()) for one in requests]
+    fits = _one_by_one(requests, monitor, progress)
     if request.settings.n_control_points is not None:
         return fits
     return uncrossed(request.shape.contours, fits, requests[0], ask)
 
 
-def _with_shared(request: DrawingRequest, monitor: Callable[[], Monitor]) -> list[Fit]:
+def _one_by_one(
+    requests: Sequence[Request],
+    monitor: Callable[[], Monitor],
+    progress: Callable[[int, int], object],
+) -> list[Fit]:
+    """The fits of some requests, the progress told."""
+    fits = []
+    for index, request in enumerate(requests):
+        progress(index, len(requests))
+        fits.append(solve(request, monitor()))
+    progress(len(requests), len(requests))
+    return fits
+
+
+def _with_shared(
+    request: DrawingRequest,
+    monitor: Callable[[], Monitor],
+    progress: Callable[[int, int], object],
+) -> list[Fit]:
     """Fits of all contours, boundaries that they share fitted once."""
     shape, settings = request.shape, request.settings
     tolerance = tolerance_length(settings.tolerance or 0.0, shape.contours[0])
     snap = SNAP_PART * tolerance
     arcs = shared_arcs(shape.contours, snap)
     of_arcs = replace(settings, tolerance=tolerance - snap, ends="fixed", symmetric=False)
-    curves = [
-        solve(Request.of(Contour.silently(points, closed), None, of_arcs), monitor())
+    borders = [
+        Request.of(Contour.silently(points, closed), None, of_arcs)
         for points, closed in zip(arcs.points, arcs.closed, strict=True)
     ]
+    curves = _one_by_one(borders, monitor, progress)
     fits = []
     for index, (contour, uses) in enumerate(zip(shape, arcs.uses, strict=True)):
         if not uses:
