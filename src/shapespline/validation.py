@@ -27,6 +27,11 @@ def float_array(values: ArrayLike, name: str) -> FloatArray:
     >>> float_array([1, 2], "weights").tolist()
     [1.0, 2.0]
     """
+    if hasattr(values, "__geo_interface__"):
+        raise InvalidInputError(
+            f"{name} must be an array of numbers, got a geometry ({type(values).__name__}); read"
+            " it first: fit_shape(read(geometry))"
+        )
     masked = sys.modules.get("numpy.ma")  # whoever has a masked array has imported it
     if masked is not None and isinstance(values, masked.MaskedArray) and masked.is_masked(values):
         raise InvalidInputError(f"{name} must not be masked; drop the masked rows first")

@@ -104,6 +104,13 @@ def test_options_and_arguments_are_checked(lake):
         ss.read(lake[1]).to_shapely(chord=-1)
 
 
+def test_a_geometry_where_points_belong_is_told_its_way(lake):
+    with pytest.raises(ss.InvalidInputError, match=r"got a geometry \(Polygon\); read it first"):
+        ss.fit_curve(lake[0], tolerance=1)
+    with pytest.raises(ss.InvalidInputError, match=r"got Polygon; make one .* read a geometry"):
+        ss.fit_shape(lake[0], tolerance=1)
+
+
 def test_crossing_polygons_are_read_as_they_are():
     bow = shapely.Polygon([(0, 0), (4, 4), (4, 0), (0, 4)])
     assert not bow.is_valid

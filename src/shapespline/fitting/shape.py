@@ -92,7 +92,7 @@ def fit_shape(
     if not isinstance(shape, Shape):
         raise InvalidInputError(
             f"shape must be a Shape, got {type(shape).__name__};"
-            " make one with Shape([contour]), or call fit_curve"
+            " make one with Shape([contour]), read a geometry or a file, or call fit_curve"
         )
     settings = Settings(
         tolerance=tolerance,

@@ -7,6 +7,8 @@
 // The global search (nearest.hpp) begins far from the foot and has a safeguard of its own.
 #pragma once
 
+#include "shapespline/base/pair.hpp"
+
 namespace shapespline {
 
 // The second derivative where it is safely positive, else its Gauss-Newton part, with which a step
@@ -14,7 +16,7 @@ namespace shapespline {
 template <class Number>
 inline Number descent_curvature(Number speed_sq, Number newton) {
     constexpr double kSafely = 0.3;
-    return newton < kSafely * speed_sq ? speed_sq : newton;
+    return chosen(newton < kSafely * speed_sq, speed_sq, newton);
 }
 
 }  // namespace shapespline

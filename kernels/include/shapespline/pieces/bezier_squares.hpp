@@ -157,12 +157,12 @@ class BezierSquares {
                 const Pair u = best.u - slope / (curvature + both(1e-300));
                 const Look next = look(c, k, clamped(u, 0.0, 1.0));
                 const auto nearer = next.distance_sq < best.distance_sq;
-                best.u = nearer ? next.u : best.u;
-                best.rx = nearer ? next.rx : best.rx;
-                best.ry = nearer ? next.ry : best.ry;
-                best.tx = nearer ? next.tx : best.tx;
-                best.ty = nearer ? next.ty : best.ty;
-                best.distance_sq = nearer ? next.distance_sq : best.distance_sq;
+                best.u = chosen(nearer, next.u, best.u);
+                best.rx = chosen(nearer, next.rx, best.rx);
+                best.ry = chosen(nearer, next.ry, best.ry);
+                best.tx = chosen(nearer, next.tx, best.tx);
+                best.ty = chosen(nearer, next.ty, best.ty);
+                best.distance_sq = chosen(nearer, next.distance_sq, best.distance_sq);
             }
             state.u.pair(k) = best.u;
             state.rx.pair(k) = best.rx;
