@@ -31,8 +31,8 @@ def laid_out(folder: Path) -> Path:
         (folder / name).write_bytes((DATA / "outlines" / f"{source}.csv").read_bytes())
     points = np.loadtxt(folder / "scan.csv", delimiter=",")
     np.savetxt(folder / "cloud.csv", np.random.default_rng(0).permutation(points), delimiter=",")
-    rows = [f"{index},{x!r},{y!r}" for index, (x, y) in enumerate(points[::4].tolist())]
-    (folder / "table.csv").write_text("\n".join(["id,east,north", *rows]), encoding="utf-8")
+    rows = [f"{index},{x!r},{y!r},0.5" for index, (x, y) in enumerate(points[::4].tolist())]
+    (folder / "table.csv").write_text("\n".join(["id,east,north,error", *rows]), "utf-8")
     ground = Image.new("RGB", (96, 96), "white")
     ground.paste("#145aa0", (12, 12, 60, 80))
     ground.paste("#c81e1e", (60, 12, 84, 80))
