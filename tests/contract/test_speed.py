@@ -55,7 +55,7 @@ def test_points_that_scatter_do_not_take_minutes():
 
 
 def test_nobody_waits_at_the_door(tmp_path):
-    # Seconds of processor. Measured: 0.1, 1.5 and 4 times those of numpy's import (PKG-07).
+    # Seconds of processor. Measured: 0.1, 1.5 and 4 times those of numpy's import (PKG-08).
     found = {
         name: waited(arguments, str(tmp_path), runs=3).processor
         for name, arguments in ways(str(tmp_path)).items()
