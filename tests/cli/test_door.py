@@ -125,7 +125,7 @@ def test_columns_of_a_table(shapespline, desk):
         np.testing.assert_array_equal(fit.contour.points, expected)
     code, _, err = shapespline("fit", "table.csv", "--columns", "x,y", "-o", "x.svg")
     assert code == 1
-    assert "no column 'x'; the table has 3: id, east, north" in err
+    assert "no column 'x'; the table has 4: id, east, north" in err
 
 
 @pytest.mark.parametrize(
@@ -253,3 +253,17 @@ def test_what_is_going_on_names_the_curve(shapespline, desk, monkeypatch):
     n = len(ss.read("logo.png"))
     curves = [sentence.partition(",")[0] for sentence in said if sentence.startswith("curve")]
     assert curves == [f"curve {index + 1} of {n}" for index in range(n)]
+
+
+def test_an_order_that_is_in_doubt_is_said(shapespline, desk):
+    square = np.random.default_rng(1).permutation(flower(60).points)
+    two = np.concatenate([square, square + 100])
+    np.savetxt("one.csv", square, delimiter=",")
+    np.savetxt("two.csv", two, delimiter=",")
+    _, _, err = shapespline("fit", "one.csv", "--unordered", "--closed", "-t", "1%")
+    assert err == ""
+    _, _, err = shapespline("fit", "two.csv", "--unordered", "-t", "1%")
+    assert "2 closed and 0 open outlines, confidence 1.00; --closed or --open says more" in err
+    _, _, err = shapespline("fit", "one.csv", "-t", "1%", "--force")
+    assert "the points look shuffled" in err
+    assert "say --unordered" in err

@@ -22,6 +22,8 @@ WORDS = (
         r"--\1 \2",
     ),
     (r"^release\b", "--dxf-release"),
+    (r"sort them with order_points, or read them with unordered=True", "say --unordered"),
+    (r"\bclosed=True or closed=False\b", "--closed or --open"),
     (r"\bdpi, pixels per inch, or scale\b", "--dpi, --width or --scale"),
 )
 PATTERNS = tuple((re.compile(pattern), said) for pattern, said in WORDS)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline.analysis import order_points
-from shapespline.errors import FormatError
+from shapespline.errors import FormatError, ShuffledPointsWarning, caller_level
 from shapespline.formats.columns import picked
 from shapespline.geometry import parents_of, sampled
 from shapespline.values import Contour, Shape
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from shapespline.values import Drawing
 
 COMMENT = "#"
+# Below this confidence an order that was found may be another one.
+CLEAR = 0.995
 
 
 class Dialect(NamedTuple):
@@ -119,7 +122,7 @@ def read(
     if y_down:
         points = turned_over(points)
     if unordered:
-        return order_points(points, closed=closed).shape
+        return in_order(points, closed)
     outlines = np.split(points, breaks)
     airfoil = around_airfoil(points)
     if airfoil is not None:
@@ -128,6 +131,29 @@ def read(
         outlines = [points]
     contours = [Contour(outline, closed) for outline in outlines]
     return Shape(contours, parents_of(contours))
+
+
+def in_order(points: FloatArray, closed: bool | None) -> Shape:
+    """The outlines that points in no order were taken from; a warning says where that is in doubt.
+
+    Warns
+    -----
+    ShuffledPointsWarning
+        If there are several outlines, an open one that nobody spoke of, or points whose neighbours
+        are not clear.
+    """
+    found = order_points(points, closed=closed)
+    n_closed = sum(contour.closed for contour in found.shape)
+    n_open = len(found.shape) - n_closed
+    if len(found.shape) > 1 or (n_open and closed is None) or found.confidence < CLEAR:
+        warnings.warn(
+            f"the order of the points was found: {n_closed} closed and {n_open} open outlines,"
+            f" confidence {found.confidence:.2f}; closed=True or closed=False says more of them,"
+            " and a picture shows whether they are right",
+            ShuffledPointsWarning,
+            stacklevel=caller_level(),
+        )
+    return found.shape
 
 
 def turned_over(points: FloatArray) -> FloatArray:

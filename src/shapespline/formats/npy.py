@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.analysis import order_points
 from shapespline.errors import FormatError
-from shapespline.formats.csv import turned_over
+from shapespline.formats.csv import in_order, turned_over
 from shapespline.values import Contour, Shape
 
 if TYPE_CHECKING:
@@ -60,6 +59,6 @@ def read(
     points = array.astype(np.float64)
     if unordered:
         points = turned_over(points) if y_down else points
-        return order_points(points, closed=closed).shape
+        return in_order(points, closed)
     contour = Contour(points, closed)
     return Shape([Contour(turned_over(points), closed) if y_down else contour])
