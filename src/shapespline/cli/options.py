@@ -5,14 +5,14 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import dataclass, fields
 from enum import StrEnum
-from math import inf
 from pathlib import Path  # noqa: TC003 - typer reads annotations
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 import shapespline as ss
 from shapespline.cli.panels import FIT, INPUT, OUTPUT, PICTURE, RUN
+from shapespline.cli.widths import read_wide
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -206,31 +206,7 @@ class Reading:
         """What the file holds."""
         if self.width is None:
             return ss.read(path, sampling=sampling, **self.given())
-        if self.scale is not None or self.dpi is not None:
-            raise ss.InvalidInputError("--width, --scale and --dpi exclude each other: give one")
-        if not 0 < self.width < inf:
-            raise ss.InvalidInputError(f"--width must be a positive number, got {self.width:g}")
-        given = {name: value for name, value in self.given().items() if name != "unit"}
-        read = ss.read(path, **given)
-        factor = self.width / width_of(read)
-        if isinstance(read, ss.Drawing):  # exact curves are sampled in their new size
-            again = ss.read(path, scale=factor, sampling=sampling, **given)
-            found = cast("Drawing", again)
-            return ss.Drawing(
-                found.fits, found.parents, found.frame, self.unit, colors=found.colors
-            )
-        from shapespline.geometry import in_unit
-
-        shape = cast("Shape", in_unit(read, scale=factor))
-        return ss.Shape(
-            shape.contours,
-            shape.parents,
-            shape.frame,
-            self.unit,
-            left_out=shape.left_out,
-            colors=shape.colors,
-            widths=shape.widths,
-        )
+        return read_wide(path, self.width, sampling, self.given())
 
     def errors(self, path: Path, columns: str) -> np.ndarray:
         """Standard deviations of the points of a table, (n, 2), from one of its columns or two."""
@@ -327,16 +303,6 @@ class Writing:
     def given(self) -> dict[str, Any]:
         """Those that were given, as options of `shapespline.write`."""
         return _given(self)
-
-
-def width_of(held: Shape | Drawing) -> float:
-    """Extent in x of all outlines together."""
-    contours = list(held) if isinstance(held, ss.Shape) else [fit.contour for fit in held]
-    low = min(contour.points[:, 0].min() for contour in contours)
-    high = max(contour.points[:, 0].max() for contour in contours)
-    if not high > low:
-        raise ss.InvalidInputError("--width needs outlines that are not a vertical line")
-    return float(high - low)
 
 
 def _given(options: Reading | Writing) -> dict[str, Any]:

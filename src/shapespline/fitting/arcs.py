@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.errors import InvalidInputError
+from shapespline.fitting.goals import Within
 from shapespline.fitting.problem import Problem
-from shapespline.fitting.request import Within
 from shapespline.fitting.strategies import PIECES
 from shapespline.fitting.verify import Candidate
 from shapespline.geometry import lines_and_arcs
