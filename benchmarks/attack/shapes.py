@@ -73,7 +73,7 @@ def comb(rng: Generator) -> tuple[Array, bool]:
     x = np.concatenate([[i, i, i + 1 - slit, i + 1 - slit] for i in range(n)])
     y = np.tile([0.2, 3.0, 3.0, 0.2], n)
     corners = np.column_stack([[*x, n, n, 0], [*y, 0.2, 0, 0]])
-    return _along(corners, int(rng.integers(80, 500)), closed=True), True
+    return along(corners, int(rng.integers(80, 500)), closed=True), True
 
 
 def cusps(rng: Generator) -> tuple[Array, bool]:
@@ -101,7 +101,7 @@ def airfoil(rng: Generator) -> tuple[Array, bool]:
 def pixels(rng: Generator) -> tuple[Array, bool]:
     """A smooth outline in whole pixels, without repetitions."""
     points, _ = fourier(rng)
-    fine = _along(points, 4000, closed=True)
+    fine = along(points, 4000, closed=True)
     chain = np.round(float(rng.uniform(10, 90)) * fine)
     different = (chain != np.roll(chain, 1, axis=0)).any(axis=1)
     return chain[different], True
@@ -156,7 +156,7 @@ def drawn(seed: int, family: str | None = None) -> Drawn:
     return Drawn(name if family is None else family, points, closed)
 
 
-def _along(corners: Array, n: int, *, closed: bool) -> Array:
+def along(corners: Array, n: int, *, closed: bool) -> Array:
     """Points at equal steps along a polyline, its corners among them."""
     track = np.concatenate([corners, corners[:1]]) if closed else corners
     at = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(track, axis=0).T))])

@@ -1,11 +1,13 @@
 // Distances between curves, points and polylines.
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <tuple>
 
 #include "arrays.hpp"
+#include "shapespline/distance/crossing_pairs.hpp"
 #include "shapespline/distance/crossings.hpp"
 #include "shapespline/distance/deviation.hpp"
 #include "shapespline/distance/near_feet.hpp"
@@ -70,4 +72,14 @@ void bind_distance(nb::module_ &m) {
             return ss::count_crossings(std::span<const ss::Vec2>(vectors(vertices)));
         },
         "vertices"_a.noconvert());
+
+    m.def(
+        "crossing_pairs",
+        [](In2 vertices, InIndices starts, bool at_vertices) {
+            nb::gil_scoped_release release;
+            return ss::CrossingPairs(vectors(vertices), {starts.data(), starts.shape(0)},
+                                     at_vertices)
+                .run();
+        },
+        "vertices"_a.noconvert(), "starts"_a.noconvert(), "at_vertices"_a);
 }

@@ -28,9 +28,10 @@ void bind_settings(nb::module_ &m) {
     nb::class_<spline::Fairness>(m, "Fairness")
         .def(nb::init<double, double>(), nb::kw_only(), "interval_ratio"_a, "speed_ratio"_a);
     nb::class_<spline::SplineSettings>(m, "SplineSettings")
-        .def(nb::init<spline::FitLimits, spline::Fairness, bool, int, double, double, double>(),
-             nb::kw_only(), "fit"_a, "fairness"_a, "keep_fair"_a, "start"_a, "accept"_a,
-             "worth_trying"_a, "worth_retrying"_a);
+        .def(nb::init<spline::FitLimits, spline::Fairness, bool, int, int, double, double,
+                      double>(),
+             nb::kw_only(), "fit"_a, "fairness"_a, "keep_fair"_a, "start"_a, "most_at_start"_a,
+             "accept"_a, "worth_trying"_a, "worth_retrying"_a);
 }
 
 }  // namespace

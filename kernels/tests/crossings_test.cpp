@@ -1,6 +1,7 @@
 // Crossings counted by the sweep against every pair of segments solved for their common point.
 #include "check.hpp"
 #include "shapes.hpp"
+#include "shapespline/distance/crossing_pairs.hpp"
 #include "shapespline/distance/crossings.hpp"
 
 using namespace shapespline;
@@ -47,4 +48,34 @@ TEST(ways_through_a_vertex_cross_once_and_touching_ones_evenly) {
     CHECK(counted({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}) == 0);
     CHECK(counted({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 1e-17}}) == 0);
     CHECK(counted({{0, 0}}) == 0);
+}
+
+TEST(pairs_of_polylines_cross_where_some_of_their_segments_do) {
+    std::mt19937 random(8);
+    long total = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+        std::vector<Vec2> vertices;
+        std::vector<std::int64_t> starts{0};
+        for (int i = 0; i < 12; ++i) {
+            const Vec2 shift = random_points(random, 1)[0];
+            for (const Vec2 p : random_walk(random, 6)) vertices.push_back(p + 0.2 * shift);
+            starts.push_back(static_cast<std::int64_t>(vertices.size()));
+        }
+        const auto found = CrossingPairs(vertices, starts, false).run();
+        std::size_t expected = 0;
+        for (std::int64_t i = 0; i < 12; ++i)
+            for (std::int64_t k = i + 1; k < 12; ++k) {
+                bool crosses = false;
+                for (auto a = starts[i]; a + 1 < starts[i + 1]; ++a)
+                    for (auto c = starts[k]; c + 1 < starts[k + 1]; ++c)
+                        crosses |= cross_inside(vertices[a], vertices[a + 1], vertices[c],
+                                                vertices[c + 1]);
+                expected += crosses;
+                CHECK(crosses == (std::find(found.begin(), found.end(), std::pair{i, k}) !=
+                                  found.end()));
+            }
+        CHECK(found.size() == expected);
+        total += static_cast<long>(expected);
+    }
+    CHECK(total > 100);
 }

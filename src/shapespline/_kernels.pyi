@@ -242,6 +242,7 @@ class SplineSettings:
         fairness: Fairness,
         keep_fair: bool,
         start: int,  # 0 few knots, 1 more, 2 the data polyline
+        most_at_start: int,  # control points
         accept: float,  # tolerances
         worth_trying: float,
         worth_retrying: float,
@@ -266,3 +267,8 @@ class RemovalSearch:
     def counts(self) -> dict[str, int]: ...
 
 def count_crossings(vertices: FloatArray) -> int: ...  # (k, 2), an open polyline
+
+# Polyline i has the vertices from starts[i] up to starts[i + 1].
+def crossing_pairs(
+    vertices: FloatArray, starts: IntArray, at_vertices: bool
+) -> list[tuple[int, int]]: ...

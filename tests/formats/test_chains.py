@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
+from shapespline.errors import FormatError
 from shapespline.formats import chains
 from shapespline.values.piece import Piece
 
@@ -87,3 +88,8 @@ def test_turned_round_knots():
 def test_nothing():
     assert chained([]) == []
     assert chained([line((1, 1), (1, 1))]) == []
+
+
+def test_coordinates_without_squares_are_refused():
+    with pytest.raises(FormatError, match=r"must not exceed 1e\+60 in magnitude, found 1e\+200"):
+        chained([line((0, 0), (1e200, 1))])

@@ -95,7 +95,7 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
         yield from plan_pieces(problem, shortlist)
         return
     if request.is_plain and problem.looks_smooth:
-        yield OneSpline()
+        yield OneSpline(ROUGH_PART * len(problem.contour))
         if shortlist.follows(shortlist.best):
             return
     if not (request.style.free or request.constraints.anything) and (
@@ -110,7 +110,7 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
     if shortlist.among(ONE_SPLINE) or in_pieces is None:
         return
     if _one_spline_may_be_better(problem, in_pieces):
-        yield OneSpline()
+        yield OneSpline(in_pieces.fit.n_stored_points if in_pieces.kept else inf)
 
 
 def plan_pieces(problem: Problem, shortlist: Shortlist) -> Iterator[Strategy]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from shapespline.engines.least_squares import (
@@ -67,7 +68,10 @@ class Strategy(Protocol):
 
 
 class OneSpline:
-    """The smallest single spline (knot removal)."""
+    """The smallest single spline (knot removal), if it may have fewer points than what is known."""
+
+    def __init__(self, fewer_than: float = inf) -> None:
+        self._fewer_than = fewer_than
 
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
         """Curves of tighter and tighter searches, then of other starts."""
@@ -79,6 +83,7 @@ class OneSpline:
             degree=request.style.degree,
             effort=request.effort,
             monitor=monitor,
+            fewer_than=self._fewer_than,
         )
         with suppress(StopIteration):
             attempt = next(tried)

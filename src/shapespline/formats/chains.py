@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline.errors import FormatError
 from shapespline.formats.pieces import closed_up, size_of
 from shapespline.geometry import backwards
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 # Of the size of the drawing: ends nearer than this are meant to be one point.
 MEETING = 1e-6
+# Squares of coordinates are finite.
+LARGEST = 1e60
 
 
 def chained(runs: Sequence[Sequence[Piece]]) -> list[list[Piece]]:
@@ -28,6 +31,11 @@ def chained(runs: Sequence[Sequence[Piece]]) -> list[list[Piece]]:
     ----------
     runs : sequence of sequences of Piece
         In any order and direction.
+
+    Raises
+    ------
+    FormatError
+        If a coordinate is too large to reckon with.
 
     Examples
     --------
@@ -73,6 +81,11 @@ def _partners(runs: Sequence[Sequence[Piece]]) -> IntArray:
     ends = np.array(
         [point for run in runs for point in (run[0].control_points[0], run[-1].control_points[-1])]
     )
+    largest = float(np.abs(ends).max())
+    if not largest <= LARGEST:
+        raise FormatError(
+            f"coordinates must not exceed {LARGEST:g} in magnitude, found {largest:g}; scale it"
+        )
     near = MEETING * size_of([piece for run in runs for piece in run])
     pairs = cKDTree(ends).query_pairs(near, output_type="ndarray")
     partner = np.full(len(ends), -1)

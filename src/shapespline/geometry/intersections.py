@@ -1,4 +1,4 @@
-"""Which polylines cross each other, or themselves: boxes swept in x, then signs of areas."""
+"""Which polylines cross each other, or themselves; the loops are in the kernel."""
 
 from __future__ import annotations
 
@@ -9,14 +9,9 @@ import numpy as np
 from shapespline import _kernels
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from numpy.typing import NDArray
+    from collections.abc import Sequence
 
     from shapespline.typing import FloatArray
-
-# Pairs of segments looked at at a time.
-CHUNK = 2_000_000
 
 
 def crossing_pairs(
@@ -35,11 +30,9 @@ def crossing_pairs(
     """
     if len(polylines) < 2:
         return set()
-    lows = np.array([polyline.min(axis=0) for polyline in polylines])
-    highs = np.array([polyline.max(axis=0) for polyline in polylines])
-    return {
-        (i, j) for i, j in _meeting(lows, highs) if _cross(polylines[i], polylines[j], at_vertices)
-    }
+    starts = np.cumsum([0, *(len(polyline) for polyline in polylines)])
+    vertices = np.ascontiguousarray(np.concatenate(polylines), dtype=np.float64)
+    return set(_kernels.crossing_pairs(vertices, starts, at_vertices))
 
 
 def self_crossings(polyline: FloatArray) -> int:
@@ -53,55 +46,3 @@ def self_crossings(polyline: FloatArray) -> int:
     1
     """
     return int(_kernels.count_crossings(np.ascontiguousarray(polyline)))
-
-
-def _meeting(lows: FloatArray, highs: FloatArray) -> Iterator[tuple[int, int]]:
-    """Pairs (i, j), i < j, of boxes that meet, found among those whose ranges of x do."""
-    order = np.argsort(lows[:, 0], kind="stable")
-    ends = np.searchsorted(lows[order, 0], highs[order, 0], side="right")
-    for at, (k, end) in enumerate(zip(order, ends, strict=True)):
-        others = order[at + 1 : end]
-        meets = (lows[others, 1] <= highs[k, 1]) & (lows[k, 1] <= highs[others, 1])
-        for other in others[meets].tolist():
-            yield min(int(k), other), max(int(k), other)
-
-
-def _cross(first: FloatArray, second: FloatArray, at_vertices: bool) -> bool:
-    """Whether some segment crosses some other, among those in the common part of their boxes."""
-    low = np.maximum(first.min(axis=0), second.min(axis=0))
-    high = np.minimum(first.max(axis=0), second.max(axis=0))
-    a, b = _within(first, low, high)
-    c, d = _within(second, low, high)
-    if not (len(a) and len(c)):
-        return False
-    step = max(1, CHUNK // len(c))
-    return any(
-        bool(_crossed(a[k : k + step], b[k : k + step], c, d, at_vertices).any())
-        for k in range(0, len(a), step)
-    )
-
-
-def _within(
-    polyline: FloatArray, low: FloatArray, high: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Ends of the segments whose boxes meet a box."""
-    a, b = polyline[:-1], polyline[1:]
-    meets = (np.minimum(a, b) <= high).all(axis=1) & (np.maximum(a, b) >= low).all(axis=1)
-    return a[meets], b[meets]
-
-
-def _crossed(
-    a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, at_vertices: bool
-) -> NDArray[np.bool_]:
-    """Whether segments a b and c d cross, every one with every other.
-
-    In an inner point of both; or, as if a point on a segment lay to the left of it.
-    """
-
-    def side(p: FloatArray, q: FloatArray, r: FloatArray) -> FloatArray:
-        u, v = q - p, r - p
-        cross = u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
-        return np.where(cross >= 0, 1.0, -1.0) if at_vertices else np.sign(cross)
-
-    a, b, c, d = a[:, None], b[:, None], c[None], d[None]
-    return (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)

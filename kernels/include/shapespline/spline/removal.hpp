@@ -210,8 +210,9 @@ class KnotRemoval {
     bool start_by_insertion(const std::vector<int> &knots, Interruption &interruption) {
         state_ = chord_length_spline<Degree>(search_, knots);
         KnotInsertion<Degree> insertion(search_.points, settings_.fit);
+        const int most = std::min(search_.size(), settings_.most_at_start);
         for (double enough = settings_.fit.enough; enough > kLeastEnough; enough *= kTighter) {
-            if (!insertion.run(state_, enough, search_.size(), interruption)) return false;
+            if (!insertion.run(state_, enough, most, interruption)) return false;
             if (is_proven(state_)) return true;
         }
         return false;

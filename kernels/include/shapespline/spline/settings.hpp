@@ -18,6 +18,7 @@ struct SplineSettings {
     Fairness fairness;
     bool keep_fair;
     int start;      // which knots it begins with: 0 few, 1 more, 2 the data polyline
+    int most_at_start;  // control points at which insertion gives up
     double accept;  // part of the tolerance that an accepted curve keeps
     // In tolerances, after several failures in a row: the rank beyond which a removal is not tried,
     // and the distance of a failed one beyond which it gets no harder attempt.

@@ -43,6 +43,10 @@ TIGHTER = 0.95
 ATTEMPTS = 5
 # Removals tried in the first stage; only outlines far rougher than the tolerance need so many.
 MOST_TRIALS = 20_000
+# A search that begins with more control points than so many times those of another curve, and more
+# than so many, does not come below them (SPL-12).
+HOPELESS_RATIO, HOPELESS_POINTS = 3.0, 200
+NO_LIMIT = 2**31 - 1
 
 
 def _effort(n_side: int, *stages: tuple[int, int, bool, float]) -> _kernels.RemovalEffort:
@@ -103,6 +107,7 @@ def attempts(
     effort: Effort,
     monitor: Monitor,
     fair: bool = True,
+    fewer_than: float = inf,
 ) -> Generator[SplineAttempt, bool, None]:
     """One spline with few control points within a tolerance, tried until it keeps what is asked.
 
@@ -129,6 +134,9 @@ def attempts(
     fair : bool
         Keep knot intervals within a factor of 1000, speed above 1/20 of its median and
         self-crossings to those of the data.
+    fewer_than : float
+        Control points of a curve that is known: nothing is tried where the data are so rough that
+        no spline has fewer.
 
     References
     ----------
@@ -155,8 +163,13 @@ def attempts(
     """
     thinned = normalized.thinned(tolerance * normalized.scale, np.empty(0, dtype=np.int64))
     part, start = 1.0, 0
+    limit = max(HOPELESS_RATIO * fewer_than, HOPELESS_POINTS)
+    most = int(min(limit, NO_LIMIT))
     for _ in range(ATTEMPTS):
-        search = _search(thinned, part * tolerance, degree, LEVELS[effort], fair, start, monitor)
+        settings = _settings(thinned, part * tolerance, LEVELS[effort], fair, start, most)
+        search = _searched(thinned, settings, degree, LEVELS[effort], most, monitor)
+        if search is None:
+            return
         curve = _exported(search, thinned, contour, degree)
         fairness = fairness_of(curve, thinned.contour)
         kept = yield SplineAttempt(curve, fairness, search.counts())
@@ -170,16 +183,15 @@ def attempts(
             start += 1
 
 
-def _search(
+def _settings(
     normalized: NormalizedContour,
     tolerance: float,
-    degree: int,
     level: _Level,
     fair: bool,
     start: int,
-    monitor: Monitor,
-) -> _kernels.RemovalSearch:
-    """The stages of one search, as many as the monitor allows."""
+    most_at_start: int,
+) -> _kernels.SplineSettings:
+    """What the kernel is asked for, in the unit of the search."""
     scaled = tolerance * normalized.scale - normalized.error_used
     unit = normalized.extent / EXTENT
     low, high = (unit * length for length in LEAST_INTERVAL)
@@ -187,7 +199,7 @@ def _search(
     least_interval, largest_interval = (
         (least, INTERVAL_RATIO * least) if fair else (unit * length for length in FREE_INTERVALS)
     )
-    settings = _kernels.SplineSettings(
+    return _kernels.SplineSettings(
         fit=_kernels.FitLimits(
             tolerance=scaled,
             enough=ENOUGH,
@@ -200,13 +212,27 @@ def _search(
         fairness=_kernels.Fairness(interval_ratio=INTERVAL_RATIO, speed_ratio=SPEED_RATIO),
         keep_fair=fair,
         start=start,
+        most_at_start=most_at_start,
         accept=ACCEPT,
         worth_trying=level.worth_trying,
         worth_retrying=level.worth_retrying,
     )
+
+
+def _searched(
+    normalized: NormalizedContour,
+    settings: _kernels.SplineSettings,
+    degree: int,
+    level: _Level,
+    most_at_start: int,
+    monitor: Monitor,
+) -> _kernels.RemovalSearch | None:
+    """The stages of one search, as many as the monitor allows; None where it has no hope."""
     search = _kernels.RemovalSearch(
         normalized.contour.points, normalized.contour.closed, degree, settings, monitor.ends
     )
+    if search.n_points() > most_at_start:
+        return None
     if monitor.stage(search.n_points()):
         return search
     search.remove_cheapest(_RANK, level.remove, MOST_TRIALS, monitor.ends)

@@ -23,18 +23,37 @@ PEERS = ("hand620_closed", "leaf840_closed", "plane1100_closed", "loop500_open")
 
 
 def test_what_misses_the_rule_begins_elsewhere_at_last_with_the_polyline(monkeypatch):
-    starts = []
+    starts, from_polyline = [], []
+
+    def asked(*arguments):
+        starts.append(arguments[4])
+        return settings(*arguments)
 
     def noted(*arguments):
-        starts.append((arguments[5], (search := begin(*arguments)).from_polyline()))
+        from_polyline.append((search := searched(*arguments)).from_polyline())
         return search
 
-    begin = engine._search
+    settings, searched = engine._settings, engine._searched
     broken = Fairness(2 * INTERVAL_RATIO, 1.0, 0, 0)
-    monkeypatch.setattr(engine, "_search", noted)
+    monkeypatch.setattr(engine, "_settings", asked)
+    monkeypatch.setattr(engine, "_searched", noted)
     monkeypatch.setattr(engine, "fairness_of", lambda *_: broken)
     assert fit_spline(flower(), 0.05).kept
-    assert starts == [(0, False), (1, False), (2, True)]
+    assert starts == [0, 1, 2]
+    assert from_polyline == [False, False, True]
+
+
+def test_no_spline_of_rough_data_is_tried_for_fewer_points_than_it_may_have():
+    rng = np.random.default_rng(4)
+    t = np.linspace(0, 2 * np.pi, 600, endpoint=False)
+    ring = np.column_stack([np.cos(t), np.sin(t)]) + rng.normal(0, 0.01, (600, 2))
+    contour = Contour(ring, closed=True)
+    options = {"degree": 3, "effort": "fast", "monitor": Monitor()}
+    known = NormalizedContour.of(contour)
+    assert not list(attempts(contour, known, 0.005, **options, fewer_than=100))
+    heard = len(options["monitor"].history)
+    assert heard == 0  # not even begun
+    assert next(attempts(contour, known, 0.1, **options, fewer_than=10)).curve.n_control_points < 30
 
 
 def first_attempt(contour, tolerance, effort):
