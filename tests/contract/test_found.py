@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from benchmarks.attack.judge import NEAR_CUSP
 from benchmarks.attack.shapes import drawn
 from scipy.interpolate import BSpline, splev
 from tests.support.shapes import on_circle
 
 import shapespline as ss
-from checks import bits, distance_to_curve, polyline_of, self_crossings
+from checks import bits, distance_to_curve, hooks, polyline_of, self_crossings, speed_ratio
 from shapespline.engines.pieces import PiecesProblem, chords_found
 from shapespline.values import periodic_knots
 
@@ -254,3 +255,19 @@ def test_a_tangent_far_from_the_origin_is_met_but_for_rounding():
     points = np.cumsum(rng.normal(0, 1, (60, 2)), axis=0) + 1e8
     fit = ss.fit_curve(points, closed=False, tolerance=0.1, end_tangents=((0.65, -0.76), (0, 1)))
     assert fit.status == ss.Status.KEPT
+
+
+# Before: four pieces of these nearly stood still.
+@pytest.mark.slow
+@pytest.mark.parametrize("tolerance", [0.4, 0.5, 0.8])
+def test_pixel_chains_get_curves_without_hooks_and_near_cusps(tolerance):
+    for radius in (30, 60, 90, 140):
+        for waves in (3, 5):
+            t = np.linspace(0, 2 * np.pi, 40 * radius, endpoint=False)
+            y = 0.6 * radius * np.sin(t) + 0.1 * radius * np.sin(waves * t)
+            chain = np.round(np.column_stack([radius * np.cos(t), y]))
+            chain = chain[(chain != np.roll(chain, 1, axis=0)).any(axis=1)]
+            fit = ss.fit_curve(chain, closed=True, tolerance=tolerance)
+            assert fit.kept
+            assert not len(hooks(fit.pieces, chain, closed=True, tolerance=tolerance))
+            assert speed_ratio(fit.pieces) >= NEAR_CUSP

@@ -4,6 +4,7 @@
 #include <set>
 #include <vector>
 
+#include "shapespline/pieces/section_fairness.hpp"
 #include "shapespline/pieces/reduction.hpp"
 
 namespace shapespline::pieces {
@@ -236,8 +237,10 @@ class JointSmoother {
         const LawsonLimits limits{tolerance_, kRounds, kStrays};
         const LawsonResult result =
             LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits).run();
-        if (result.kept) ring_.replace(i0, i1, result.sections);
-        return result.kept;
+        if (!result.kept || !fairness_.may_replace(ring_.window(i0, i1), result.sections))
+            return false;
+        ring_.replace(i0, i1, result.sections);
+        return true;
     }
 
     std::span<const Vec2> data_;
@@ -247,6 +250,7 @@ class JointSmoother {
     std::span<const Index> low_turn_;
     std::set<Index> failed_;
     bool turned_ = false;
+    SectionFairness fairness_{data_, tolerance_};
 };
 
 }  // namespace shapespline::pieces

@@ -47,13 +47,18 @@ struct OutlineSearch {
         std::vector<FeasibleExtension> extensions = all_extensions();
         if (interruption.ended()) return {};
         std::map<std::array<std::size_t, 3>, LawsonResult> fits;
+        SectionFairness fairness(data, settings.tolerance);
         std::vector<Section> sections;
         for (int trial = 0; trial < kPathTrials; ++trial) {
             bool all_kept = true;
             sections.clear();
             for (const PathStep &step : best_path(extensions).steps) {
                 const auto [at, fresh] = fits.try_emplace({step.from, step.to, step.extension});
-                if (fresh) at->second = fit(extensions[step.extension].cost, step);
+                if (fresh) {
+                    at->second = fit(extensions[step.extension].cost, step);
+                    at->second.kept = at->second.kept &&
+                                      fairness.is_fair(at->second.sections.front());
+                }
                 if (!at->second.kept) {
                     shorten(extensions[step.extension], step);
                     all_kept = false;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shapespline/base/interruption.hpp"
+#include "shapespline/pieces/section_fairness.hpp"
 #include "shapespline/pieces/section_merge.hpp"
 #include "shapespline/pieces/section_ring.hpp"
 #include "shapespline/pieces/settings.hpp"
@@ -105,7 +106,7 @@ class Reduction {
             const LawsonResult result =
                 LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits)
                     .run();
-            if (result.kept) {
+            if (result.kept && fairness_.may_replace(ring_.window(i0, i1), result.sections)) {
                 ring_.replace(i0, i1, result.sections);
                 return true;
             }
@@ -172,6 +173,7 @@ class Reduction {
     SectionRing &ring_;
     PiecesSettings settings_;
     Interruption &interruption_;
+    SectionFairness fairness_{data_, settings_.tolerance};
     std::set<std::vector<Index>> failed_;
 };
 

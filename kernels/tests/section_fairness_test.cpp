@@ -1,0 +1,45 @@
+// Sections that stand still or turn back where their data do not.
+#include "check.hpp"
+#include "shapespline/pieces/section_fairness.hpp"
+
+using namespace shapespline;
+using namespace shapespline::pieces;
+
+namespace {
+
+Section cubic(std::vector<Vec2> points, Index count) {
+    Section section;
+    section.degree = 3;
+    section.knots = {0, 0, 0, 0, 1, 1, 1, 1};
+    section.points = std::move(points);
+    section.last = count - 1;
+    return section;
+}
+
+std::vector<Vec2> straight_data() {
+    std::vector<Vec2> data;
+    for (int i = 0; i <= 100; ++i) data.push_back({0.1 * i, 0.0});
+    return data;
+}
+
+}  // namespace
+
+TEST(an_arch_is_fair) {
+    const auto data = straight_data();
+    CHECK(SectionFairness(data, 0.5).is_fair(cubic({{0, 0}, {3, 1}, {7, 1}, {10, 0}}, 101)));
+}
+
+TEST(a_section_that_stands_still_has_a_near_cusp) {
+    const auto data = straight_data();
+    // The crossed handles of a cubic meet in a cusp where they are as long as this.
+    CHECK(!SectionFairness(data, 0.5).is_fair(cubic({{0, 0}, {10, 3}, {0, 3}, {10, 0}}, 101)));
+}
+
+TEST(a_loop_within_a_tolerance_is_a_hook_unless_the_data_turn_too) {
+    std::vector<Vec2> data = straight_data();
+    const Section loop = cubic({{4, 0}, {7.2, 1}, {2.8, 1}, {6, 0}}, 101);
+    CHECK(!SectionFairness(data, 3.0).is_fair(loop));
+    CHECK(SectionFairness(data, 0.05).is_fair(loop));
+    for (std::size_t i = 0; i < data.size(); ++i) data[i].y = i % 20 < 10 ? 0.0 : 3.0;
+    CHECK(SectionFairness(data, 3.0).is_fair(loop));
+}
