@@ -95,7 +95,9 @@ class JointSmoother {
         ring_.at(i).tangent = true;
         const bool at_end = ring_.at(i).at_end;
         const std::vector<int> raise{at_end ? 2 : 0, at_end ? 0 : 2};
+        only_fair_ = false;  // it is required
         if (!align(i - 1, i, raise)) ring_.at(i).tangent = false;
+        only_fair_ = true;
     }
 
     // Fits the chain of tangent joints from section i as a whole; where the tolerance forbids it,
@@ -144,10 +146,19 @@ class JointSmoother {
         for (int by = 2; worth && by <= (required ? kMostRaise : most_raise_); by += 2)
             raises.emplace_back(required && !before ? 0 : by, required && !after ? 0 : by);
         ring_.at(k).tangent = true;
+        refused_ = false;
+        if (align_by(k, raises)) return;
+        // A turn is seen more than a section that nearly stands still somewhere.
+        only_fair_ = false;
+        ring_.at(k).tangent = refused_ && align_by(k, raises);
+        only_fair_ = true;
+    }
+
+    bool align_by(long k, const std::vector<std::pair<int, int>> &raises) {
         for (const auto &raise : raises)
             for (int side = 1; side <= kWidest; ++side)
-                if (align_around(k, side, raise)) return;
-        ring_.at(k).tangent = false;
+                if (align_around(k, side, raise)) return true;
+        return false;
     }
 
     // With so many sections on either side, the two beside the joint raised.
@@ -237,8 +248,11 @@ class JointSmoother {
         const LawsonLimits limits{tolerance_, kRounds, kStrays};
         const LawsonResult result =
             LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits).run();
-        if (!result.kept || !fairness_.may_replace(ring_.window(i0, i1), result.sections))
+        if (!result.kept) return false;
+        if (only_fair_ && !fairness_.may_replace(ring_.window(i0, i1), result.sections)) {
+            refused_ = true;
             return false;
+        }
         ring_.replace(i0, i1, result.sections);
         return true;
     }
@@ -251,6 +265,7 @@ class JointSmoother {
     std::set<Index> failed_;
     bool turned_ = false;
     SectionFairness fairness_{data_, tolerance_};
+    bool only_fair_ = true, refused_ = false;
 };
 
 }  // namespace shapespline::pieces
