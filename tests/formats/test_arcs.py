@@ -160,3 +160,20 @@ def test_python_holds_arcs_beside_the_splines(drawing, tmp_path):
     assert len(held["curves"]) == len(held["pieces"]) == len(drawing)
     assert held["pieces"][4] == [("arc", (20.0, 1.0), 2.5, 0.4, 2 * pi)]
     assert [item[0] for item in held["pieces"][3]] == ["line", "arc", "spline"]
+
+
+def test_release_12_is_polylines_with_bulges(drawing, tmp_path):
+    path = tmp_path / "old.dxf"
+    ss.write(path, drawing, release="R12", arc_tolerance=1e-3)
+    document = ezdxf.readfile(path)
+    assert document.dxfversion == "AC1009"
+    assert not document.audit().errors
+    assert {entity.dxftype() for entity in document.modelspace()} == {"POLYLINE"}
+    again = ss.read(path)
+    assert [fit.closed for fit in again] == [fit.closed for fit in drawing]
+    for before, after in zip(drawing, again, strict=True):
+        assert {piece.kind for piece in after.pieces} <= {"line", "arc"}
+        assert ss.compare(before.spline, after.spline).hausdorff_distance <= 1.01e-3
+    assert again.fits[4].pieces[0].arc.is_circle
+    with pytest.raises(ss.InvalidInputError, match="release must be one of R2000, R12, got 'R14'"):
+        ss.write(path, drawing, release="R14")

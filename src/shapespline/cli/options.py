@@ -252,6 +252,28 @@ class Writing:
             rich_help_panel=OUTPUT,
         ),
     ] = None
+    release: Annotated[
+        str | None,
+        typer.Option(
+            "--dxf-release",
+            help="R2000 (the default), or R12 for old machines: polylines of lines and arcs.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None
+    feed: Annotated[
+        float | None,
+        typer.Option(help="G-code: units a minute (default: 500 mm).", rich_help_panel=OUTPUT),
+    ] = None
+    depth: Annotated[
+        float | None,
+        typer.Option(help="G-code: how far below Z0 the tool cuts.", rich_help_panel=OUTPUT),
+    ] = None
+    safe_height: Annotated[
+        float | None,
+        typer.Option(
+            help="G-code: height above Z0 between outlines (default: 5 mm).", rich_help_panel=OUTPUT
+        ),
+    ] = None
     chord: Annotated[
         float | None,
         typer.Option(

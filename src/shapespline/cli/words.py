@@ -18,9 +18,10 @@ WORDS = (
     (r"\b(corners|form|ends|effort|unit)='([^']*)'", r"--\1 \2"),
     (r"\bwith weights or form=\S+", "with --form spline"),
     (
-        r"\b(time_limit|arc_tolerance|min_area|y_down|shared_boundaries)\b(?:=([^\s,;)]+))?",
+        r"\b(time_limit|arc_tolerance|safe_height|min_area|y_down|shared_boundaries)\b(?:=([^\s,;)]+))?",
         r"--\1 \2",
     ),
+    (r"^release\b", "--dxf-release"),
     (r"\bdpi, pixels per inch, or scale\b", "--dpi, --width or --scale"),
 )
 PATTERNS = tuple((re.compile(pattern), said) for pattern, said in WORDS)

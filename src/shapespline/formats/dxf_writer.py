@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.errors import InvalidInputError
+from shapespline.formats.arc_accuracy import arc_tolerance_of
 from shapespline.formats.entities import entities
 from shapespline.geometry import arc_polyline, bulged, joined, lines_and_arcs
 from shapespline.values import Piece
@@ -38,9 +39,7 @@ DEGREE = 3
 LARGEST_BULGE = 1.75 * pi
 # Flags of a SPLINE.
 CLOSED, PLANAR = 1, 8
-# Distance between a curve and its arcs, of the tolerance that the curve was fitted to, if no other
-# is asked for; but not less than this part of the size.
-ARC_PART, ARC_LEAST = 0.25, 1e-6
+RELEASES, R12 = ("R2000", "R12"), "AC1009"
 
 
 def encode(
@@ -49,8 +48,9 @@ def encode(
     degree: int = DEGREE,
     arcs: bool = False,
     arc_tolerance: float | None = None,
+    release: str = "R2000",
 ) -> bytes:
-    """Text of a DXF file, release 2000; areas of a colour lie on a layer color_rrggbb.
+    """Text of a DXF file; areas of a colour lie on a layer color_rrggbb.
 
     Parameters
     ----------
@@ -65,6 +65,9 @@ def encode(
     arc_tolerance : float, optional
         Largest distance between a curve and its arcs, data units. A quarter of the tolerance of
         the fit if not given, so that data and arcs are within 1.25 tolerances of each other.
+    release : {"R2000", "R12"}
+        R12 is what old machines read: each outline one POLYLINE of lines and arcs, as with
+        ``arcs``; it has no splines and says no unit.
 
     Returns
     -------
@@ -82,13 +85,16 @@ def encode(
     """
     if degree not in (2, 3, 4, 5, 6, 7, 8, 9):
         raise InvalidInputError(f"degree must be a whole number from 2 to 9, got {degree!r}")
+    if release not in RELEASES:
+        raise InvalidInputError(f"release must be one of {', '.join(RELEASES)}, got {release!r}")
+    arcs = arcs or release == "R12"
     if arc_tolerance is not None and not arcs:
         raise InvalidInputError("arc_tolerance acts with arcs only: ask for arcs, or leave it out")
     import ezdxf
 
     text = io.StringIO()
     with _without_time_and_chance():
-        document = ezdxf.new("R2000", units=UNITS.get(drawing.unit or "", 0))
+        document = ezdxf.new(release, units=UNITS.get(drawing.unit or "", 0))
         space = document.modelspace()
         for index, fit in enumerate(drawing):
             before = len(space)
@@ -190,11 +196,18 @@ def _add_spline(space: Modelspace, curve: BSplineCurve, degree: int, *, closed: 
 
 
 def _add_arcs(space: Modelspace, fit: Fit, arc_tolerance: float | None) -> None:
-    if arc_tolerance is None:
-        arc_tolerance = max(ARC_PART * fit.tolerance, ARC_LEAST * fit.contour.box_diagonal)
+    accuracy = arc_tolerance_of(fit, arc_tolerance)
     if any(piece.arc for piece in fit.sections):
-        found = bulged(lines_and_arcs(fit, arc_tolerance), closed=fit.closed)
+        found = bulged(lines_and_arcs(fit, accuracy), closed=fit.closed)
     else:
-        found = arc_polyline(fit.spline, arc_tolerance, closed=fit.closed)
+        found = arc_polyline(fit.spline, accuracy, closed=fit.closed)
     vertices = np.column_stack([found.points, found.bulges])
-    space.add_lwpolyline(vertices.tolist(), format="xyb", close=found.closed)
+    _add_vertices(space, vertices.tolist(), found.closed)
+
+
+def _add_vertices(space: Modelspace, rows: list[tuple[float, ...]], closed: bool) -> None:
+    """One polyline; release 12 has an older kind of it."""
+    if space.doc is not None and space.doc.dxfversion == R12:
+        space.add_polyline2d(rows, format="xyb", close=closed)
+    else:
+        space.add_lwpolyline(rows, format="xyb", close=closed)

@@ -70,6 +70,7 @@ FORMATS = (
     Format("IGES", (".iges", ".igs"), "iges", reads=True, writes=True),
     Format("3dm", (".3dm",), "rhino", reads=True, writes=True),
     Format("GeoJSON", (".geojson",), "geojson", reads=True, writes=True),
+    Format("G-code", (".nc",), "gcode", writes=True),
     Format("PDF", (".pdf",), "pdf", writes=True),
     Format("Python", (".py",), "python", writes=True),
 )
