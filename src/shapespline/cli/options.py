@@ -240,15 +240,15 @@ class Writing:
         bool,
         typer.Option(
             "--arcs",
-            help="DXF as lines and arcs, for machines that read no splines.",
+            help="Lines and arcs within the tolerance, for machines that know no splines.",
             rich_help_panel=OUTPUT,
         ),
     ] = False
     arc_tolerance: Annotated[
         float | None,
         typer.Option(
-            help="Largest distance of the arcs to the curve, on top of the tolerance of the fit"
-            " (default: a quarter of it).",
+            help="Largest distance of arcs to a curve that they are made of, on top of the"
+            " tolerance of the fit (default: a quarter of it).",
             rich_help_panel=OUTPUT,
         ),
     ] = None

@@ -29,10 +29,12 @@ if TYPE_CHECKING:
 
 # Parts of the tolerance that the curve before the arcs is asked to keep (FIT-18).
 CURVE_PARTS = (0.5, 0.1)
-# Parts of the tolerance that arcs may stray from that curve, the loosest that keeps it taken; the
-# last keeps it whatever the data are, but for the twins' hundredth.
+# Parts of the tolerance that arcs may stray from that curve, the loosest that keeps it taken; and
+# of what the curve left of it, which keeps it whatever the data are, twins included (FIT-18).
 STRAY_PARTS = (1.0, 0.8, 0.65)
 SURE_PART = 0.97
+# Of fewer points on a circle each may as well be a corner, of a square say.
+FEWEST_ON_CIRCLE = 8
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,8 @@ class LinesAndArcs:
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
         """One circle or arc; then biarcs of a curve in pieces, looser ones first."""
         request, tolerance = problem.request, problem.request.tolerance or 0.0
-        if not (request.constraints.anything or request.constraints.ends):
+        kept = request.constraints.anything or request.constraints.ends or problem.has_corners
+        if not kept:
             circle = _one_circle(request.contour, tolerance)
             if circle is not None:
                 verified = yield Candidate(method="sections", rank=PIECES, pieces=(circle,))
@@ -90,6 +93,8 @@ def _within(piece: Piece, tolerance: float) -> Piece:
 def _one_circle(contour: Contour, tolerance: float) -> Piece | None:
     """All points as one circle, or of an open outline as one arc: least squares (Kasa 1976)."""
     points = contour.points
+    if len(points) < FEWEST_ON_CIRCLE:
+        return None
     middle = points.mean(axis=0)
     x, y = (points - middle).T
     squares = x * x + y * y

@@ -94,7 +94,9 @@ def encode(
 
     text = io.StringIO()
     with _without_time_and_chance():
-        document = ezdxf.new(release, units=UNITS.get(drawing.unit or "", 0))
+        document = ezdxf.new(
+            release, units=0 if release == "R12" else UNITS.get(drawing.unit or "", 0)
+        )
         space = document.modelspace()
         for index, fit in enumerate(drawing):
             before = len(space)

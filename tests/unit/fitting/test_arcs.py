@@ -78,6 +78,15 @@ def test_circles_are_one_arc():
     assert (checked(ends, 0.01).spline([0.0, 1.0]) == ring[[0, 49]]).all()
 
 
+def test_a_square_is_no_circle():
+    square = ss.Contour([(0, 0), (4, 0), (4, 4), (0, 4)], closed=True).resampled(80)
+    # A circle lies within 0.42 of it.
+    fit = checked(ss.fit_curve(square, tolerance=0.5, form="arcs"), 0.5)
+    assert (kinds(fit), len(fit.corners)) == ({"line"}, 4)
+    few = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    assert kinds(ss.fit_curve(few, closed=True, tolerance=0.3, form="arcs")) == {"line"}
+
+
 def test_corners_ends_and_points_are_kept():
     x = np.linspace(0, 2, 80)
     arch = np.column_stack([x, np.abs(np.sin(2 * x)) * (1 + 0.3 * x)])
