@@ -177,3 +177,17 @@ def test_release_12_is_polylines_with_bulges(drawing, tmp_path):
     assert again.fits[4].pieces[0].arc.is_circle
     with pytest.raises(ss.InvalidInputError, match="release must be one of R2000, R12, got 'R14'"):
         ss.write(path, drawing, release="R14")
+
+
+def test_flat_and_empty_arcs_are_read(tmp_path):
+    document = ezdxf.new("R2000")
+    rows = [(0, 0, 1e-18), (1, 0, -3e-9), (2, 0, 1e-4), (3, 0, 0)]
+    document.modelspace().add_lwpolyline(rows, format="xyb")
+    document.saveas(tmp_path / "flat.dxf")
+    (fit,) = ss.read(tmp_path / "flat.dxf")
+    assert [piece.kind for piece in fit.pieces] == ["line", "line", "arc"]
+    assert max(piece.twin_error for piece in fit.pieces) < 3e-9  # a billionth of 2500
+    svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">'
+    svg += '<path d="M1 1A2 2 0 0 1 1 1L5 5A0 2 0 0 1 7 5"/></svg>'
+    (read,) = ss.read(io.BytesIO(svg.encode()), format=".svg")
+    assert [piece.kind for piece in read.pieces] == ["line", "line"]

@@ -56,6 +56,8 @@ def test_a_machine_cuts_the_curves_holes_first():
         is_exact = fit is not drawing.fits[3]
         assert apart(fit, cut) <= (0 if is_exact else 0.01) + ROUNDED
         assert np.abs(cut[0] - cut[-1]).max() == 0 or not fit.closed
+    text = gcode.encode(drawing, arc_tolerance=0.01).decode()
+    assert text.count("arcs within 0.01 mm of its curve") == 1
     # A circle in two halves, clockwise as it was drawn; the slot's two; biarcs of the mark.
     assert machine.moves["G2"] >= 2
     assert machine.moves["G3"] >= 2

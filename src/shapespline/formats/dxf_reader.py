@@ -14,8 +14,7 @@ from shapespline.formats.chains import chained
 from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import bezier, size_of
 from shapespline.formats.splines import spline_pieces
-from shapespline.geometry import Outlines
-from shapespline.values import Arc, Piece
+from shapespline.geometry import Outlines, bulge_piece
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
 
     from shapespline.typing import FloatArray
+    from shapespline.values import Piece
 
 # Each kind has attributes of its own.
 Entity: TypeAlias = Any
@@ -259,15 +259,7 @@ def _polyline(entity: Entity, heights: list[float]) -> list[Piece]:
     bulges = bulges if ocs is None or ocs.uz.z >= 0 else -bulges
     after = np.roll(world, -1, axis=0)
     last = len(world) if closed else len(world) - 1
-    return [piece for k in range(last) for piece in _bulging(world[k], after[k], float(bulges[k]))]
-
-
-def _bulging(begin: FloatArray, end: FloatArray, bulge: float) -> list[Piece]:
-    """A line, or an arc whose included angle has four times the arc tangent of the bulge."""
-    if bulge == 0.0 or (begin == end).all():
-        return [bezier([begin, end])]
-    arc = Arc.through(begin, end, 4 * math.atan(bulge))
-    return [Piece.of_arc(arc, begin=begin, end=end)]
+    return [bulge_piece(world[k], after[k], float(bulges[k])) for k in range(last)]
 
 
 def _spline(entity: Entity, heights: list[float]) -> list[Piece]:

@@ -54,11 +54,10 @@ def elliptical_arc(
     [2.0]
     """
     (ux, uy), (vx, vy) = np.array([first, second], dtype=np.float64).tolist()
-    radius, turned = math.hypot(ux, uy), ux * vy - uy * vx
-    off = math.hypot(vx + math.copysign(1.0, turned) * uy, vy - math.copysign(1.0, turned) * ux)
-    if radius > 0 and off <= ROUND * radius:
-        sign = math.copysign(1.0, turned)
-        x, y = np.array(centre, dtype=np.float64).tolist()
+    x, y = np.array(centre, dtype=np.float64).tolist()
+    radius, sign = math.hypot(ux, uy), math.copysign(1.0, ux * vy - uy * vx)
+    off = math.hypot(vx + sign * uy, vy - sign * ux)
+    if 0 < radius < math.inf and off <= ROUND * radius and sweep and math.isfinite(x + y):
         arc = Arc((x, y), radius, math.atan2(uy, ux) + sign * begin, sign * sweep)
         return [Piece.of_arc(arc)]
     # A rounding above a whole number of pieces does not ask for one more.

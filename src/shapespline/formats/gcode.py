@@ -119,11 +119,18 @@ def encode(
         fit = drawing.fits[index]
         accuracy = arc_tolerance_of(fit, arc_tolerance)
         lines += [
-            f"(outline {number} of {len(drawing)})",
+            f"(outline {number} of {len(drawing)}{_said(fit, accuracy, unit)})",
             *program.outline(fit, accuracy, float(depth)),
             f"G0 Z{program.number(safe_height)}",
         ]
     return "\n".join([*lines, "M2", ""]).encode("ascii")
+
+
+def _said(fit: Fit, accuracy: float, unit: str) -> str:
+    """How near arcs come to a curve that has others."""
+    if all(piece.arc or piece.kind == "line" for piece in fit.pieces):
+        return ""
+    return f", arcs within {accuracy:.3g} {unit} of its curve"
 
 
 class _Program:

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 # A node of a curve nearer to a point than this part of the size is that point.
 SAME_PLACE = 1e-9
+# An arc bows by half of this part of its chord at least: of a flatter one the radius costs as many
+# digits as the line in its place.
+FLAT_BULGE = 1e-8
 LINE_KNOTS = np.array([0.0, 0.0, 1.0, 1.0])
 
 
@@ -68,6 +71,32 @@ def lines_and_arcs(
     return tuple(found)
 
 
+def bulge_piece(
+    begin: FloatArray, end: FloatArray, bulge: float, tolerance: float | None = None
+) -> Piece:
+    """A line, or an arc whose angle has four times the arc tangent of the bulge.
+
+    Parameters
+    ----------
+    begin, end : ndarray, shape (2,)
+        The ends of the piece, to the bit.
+    bulge : float
+        Positive where it turns left.
+    tolerance : float, optional
+        Of the fit that it is in; see `Arc.n_beziers`.
+
+    Examples
+    --------
+    >>> arc = bulge_piece(np.array([1.0, 0.0]), np.array([-1.0, 0.0]), 1.0).arc
+    >>> round(arc.radius, 9), round(arc.sweep / np.pi, 9)
+    (1.0, 1.0)
+    """
+    if abs(bulge) < FLAT_BULGE or (begin == end).all():
+        return Piece("line", 1, LINE_KNOTS, np.array([begin, end], dtype=np.float64))
+    arc = Arc.through(begin, end, 4.0 * atan(bulge))
+    return Piece.of_arc(arc, tolerance, begin=begin, end=end)
+
+
 def bulged(pieces: Sequence[Piece], *, closed: bool) -> ArcPolyline:
     """Lines and arcs as vertices with bulges; a circle has two."""
     rows: list[tuple[float, float, float]] = []
@@ -102,8 +131,4 @@ def _converted(curve: BSplineCurve, tolerance: float, *, closed: bool = False) -
     if not closed:  # Beziers of a spline may miss its ends by a rounding
         points[[0, -1]] = curve.control_points[[0, -1]]
     for (begin, end), bulge in zip(pairwise(points), found.bulges.tolist(), strict=False):
-        if bulge == 0.0:
-            yield Piece("line", 1, LINE_KNOTS, np.array([begin, end]))
-        else:
-            arc = Arc.through(begin, end, 4.0 * atan(bulge))
-            yield Piece.of_arc(arc, tolerance, begin=begin, end=end)
+        yield bulge_piece(begin, end, bulge, tolerance)
