@@ -13,6 +13,7 @@ from shapespline._version import __version__
 if TYPE_CHECKING:
     from shapespline.analysis import Ordering, order_points
     from shapespline.errors import (
+        ArcsAsCurvesWarning,
         DegenerateContourError,
         DroppedPointsWarning,
         FormatError,
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from shapespline.streaming import FootParameters, LargeFit
     from shapespline.tracing import trace
     from shapespline.values import (
+        Arc,
         BSplineCurve,
         Contour,
         Drawing,
@@ -44,6 +46,8 @@ if TYPE_CHECKING:
 
 # Public name -> the room that offers it.
 _HOME = {
+    "Arc": "values",
+    "ArcsAsCurvesWarning": "errors",
     "BSplineCurve": "values",
     "Batch": "fitting",
     "Comparison": "geometry",
@@ -88,6 +92,8 @@ _HOME = {
 __all__ = [
     "LITERAL",
     "SENSIBLE",
+    "Arc",
+    "ArcsAsCurvesWarning",
     "BSplineCurve",
     "Batch",
     "Comparison",

@@ -52,6 +52,10 @@ class ShuffledPointsWarning(UserWarning):
     """Points are hardly in the order of an outline."""
 
 
+class ArcsAsCurvesWarning(UserWarning):
+    """A format that knows no arcs was written: curves stand for them."""
+
+
 def caller_level() -> int:
     """The ``stacklevel`` at which a warning points at the caller's own line, not into the package.
 

@@ -191,3 +191,14 @@ def test_flat_and_empty_arcs_are_read(tmp_path):
     svg += '<path d="M1 1A2 2 0 0 1 1 1L5 5A0 2 0 0 1 7 5"/></svg>'
     (read,) = ss.read(io.BytesIO(svg.encode()), format=".svg")
     assert [piece.kind for piece in read.pieces] == ["line", "line"]
+
+
+def test_formats_without_arcs_say_so_once(drawing, tmp_path, recwarn):
+    for ending in ("svg", "dxf", "nc", "png", "py"):
+        ss.write(tmp_path / f"x.{ending}", drawing)
+    assert not recwarn.list
+    for ending in ("pdf", "csv", "geojson"):
+        with pytest.warns(ss.ArcsAsCurvesWarning, match=rf"\.{ending} files know no arcs") as said:
+            ss.write(tmp_path / f"x.{ending}", drawing)
+        assert len(said) == 1
+        assert said[0].filename == __file__

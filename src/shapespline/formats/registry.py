@@ -11,12 +11,20 @@ met.
 from __future__ import annotations
 
 import inspect
+import warnings
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from shapespline.errors import FormatError, InvalidInputError, ShapesplineError, UnknownFormatError
+from shapespline.errors import (
+    ArcsAsCurvesWarning,
+    FormatError,
+    InvalidInputError,
+    ShapesplineError,
+    UnknownFormatError,
+    caller_level,
+)
 from shapespline.formats.atomic import check_target, write_atomically
 from shapespline.formats.sources import as_path
 from shapespline.geometry import Outlines, exact_drawing, in_unit, polygon_drawing
@@ -42,17 +50,20 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Format:
-    """A line of the registry: file name endings, and the module that knows them."""
+    """A line of the registry: file name endings, the module that knows them, what it can hold."""
 
     name: str
     suffixes: tuple[str, ...]
     module: str
     reads: bool = False
     writes: bool = False
+    arcs: bool = True
 
 
 FORMATS = (
-    Format("CSV", (".csv", ".txt", ".dat", ".xy", ".tsv"), "csv", reads=True, writes=True),
+    Format(
+        "CSV", (".csv", ".txt", ".dat", ".xy", ".tsv"), "csv", reads=True, writes=True, arcs=False
+    ),
     Format("NumPy", (".npy",), "npy", reads=True),
     Format(
         "image",
@@ -69,9 +80,9 @@ FORMATS = (
     Format("STEP", (".step", ".stp"), "step", reads=True, writes=True),
     Format("IGES", (".iges", ".igs"), "iges", reads=True, writes=True),
     Format("3dm", (".3dm",), "rhino", reads=True, writes=True),
-    Format("GeoJSON", (".geojson",), "geojson", reads=True, writes=True),
+    Format("GeoJSON", (".geojson",), "geojson", reads=True, writes=True, arcs=False),
     Format("G-code", (".nc",), "gcode", writes=True),
-    Format("PDF", (".pdf",), "pdf", writes=True),
+    Format("PDF", (".pdf",), "pdf", writes=True, arcs=False),
     Format("Python", (".py",), "python", writes=True),
 )
 
@@ -230,13 +241,33 @@ def write(
     FormatError
         If the folder does not exist, the file cannot be written, or the format cannot hold the
         drawing.
+
+    Warns
+    -----
+    ArcsAsCurvesWarning
+        If the drawing has arcs and the format has none.
     """
     path = Path(path)
     encode = _function(path, "encode")
     arguments = _checked(path, encode, options)
     check_target(path)
     held = in_unit(_as_drawing(drawing), unit, scale)
+    _say_of_arcs(path, held)
     write_atomically(path, cast("bytes", encode(held, **arguments)))
+
+
+def _say_of_arcs(path: Path, drawing: Drawing) -> None:
+    """Warn, once a file, where a format without arcs has to hold some."""
+    suffix = path.suffix.lower()
+    if any(entry.arcs for entry in FORMATS if entry.writes and suffix in entry.suffixes):
+        return
+    far = max((piece.twin_error for fit in drawing for piece in fit.sections), default=0.0)
+    if far > 0:
+        warnings.warn(
+            f"{path.name}: {suffix} files know no arcs; curves within {far:.2g} stand there",
+            ArcsAsCurvesWarning,
+            stacklevel=caller_level(),
+        )
 
 
 def _as_drawing(value: Drawing | Fit | Shape | Contour) -> Drawing:
