@@ -251,7 +251,7 @@ def write(
     encode = _function(path, "encode")
     arguments = _checked(path, encode, options)
     check_target(path)
-    held = in_unit(_as_drawing(drawing), unit, scale)
+    held = cast("Drawing", in_unit(_as_drawing(drawing), unit, scale))
     _say_of_arcs(path, held)
     write_atomically(path, cast("bytes", encode(held, **arguments)))
 
