@@ -94,7 +94,10 @@ def test_a_tolerance_as_a_part_of_the_diagonal(outline):
         ({"tolerance": "5 %%"}, "tolerance must be a positive length"),
         ({"tolerance": [1]}, "tolerance must be a positive length"),
         ({"tolerance": 0.1, "n_control_points": 9}, "exclude each other"),
-        ({"tolerance": 0.1, "form": "arcs"}, "form must be one of pieces, spline, got 'arcs'"),
+        (
+            {"tolerance": 0.1, "form": "rings"},
+            "form must be one of pieces, spline, arcs, got 'rings'",
+        ),
         ({"tolerance": 0.1, "effort": "max"}, "effort must be one of fast, balanced, smallest"),
         ({"tolerance": 0.1, "corners": "sharp"}, "corners must be 'auto', 'free', None or indices"),
         ({"tolerance": 0.1, "corners": [3, 160]}, "corners must be indices below 160"),
