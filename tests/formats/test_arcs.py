@@ -202,3 +202,22 @@ def test_formats_without_arcs_say_so_once(drawing, tmp_path, recwarn):
             ss.write(tmp_path / f"x.{ending}", drawing)
         assert len(said) == 1
         assert said[0].filename == __file__
+
+
+def test_cad_for_other_readers(drawing, tmp_path):
+    pytest.importorskip("OCP.Geom")
+    rhino3dm = pytest.importorskip("rhino3dm")
+    for ending in ("step", "iges", "3dm"):
+        ss.write(tmp_path / f"x.{ending}", drawing)
+    # Two slots of two, a keyhole, two arcs and a circle; bounds of faces lie in their planes, too.
+    step = (tmp_path / "x.step").read_bytes()
+    assert step.count(b"= CIRCLE(") >= 8
+    assert step.count(b"B_SPLINE_CURVE_WITH_KNOTS(") == 1  # the cubic
+    # An entity has two lines in the directory.
+    directory = [line for line in (tmp_path / "x.iges").read_text().splitlines() if line[72] == "D"]
+    assert sum(line[:8].strip() == "100" for line in directory) == 2 * 8
+    model = rhino3dm.File3dm.Read(str(tmp_path / "x.3dm"))
+    circle = model.Objects[4].Geometry
+    assert isinstance(circle, rhino3dm.ArcCurve)
+    assert circle.IsCompleteCircle
+    assert (circle.Arc.Center.X, circle.Radius) == (20.0, 2.5)
