@@ -102,9 +102,6 @@ def verify(candidate: Candidate, request: Request) -> Verified:
     spline = candidate.spline
     if spline is None:
         spline = joined(candidate.pieces, request.style.degree)
-    found = candidate.distances
-    found = two_sided_distance(spline, request.contour) if found is None else found
-    found = found.beside(candidate.pieces)
     fit = verified_fit(
         request.contour,
         spline,
@@ -113,7 +110,7 @@ def verify(candidate: Candidate, request: Request) -> Verified:
         run=candidate.run,
         history=candidate.history,
         sections=candidate.pieces,
-        distances=found,
+        distances=candidate.distances,
     )
     error = _tangent_error(fit.pieces, request.constraints)
     if error:
@@ -170,6 +167,7 @@ def verified_fit(
         Of this curve to this contour, if they are known.
     """
     found = two_sided_distance(spline, contour) if distances is None else distances
+    found = found.beside(sections)
     bound = found.hausdorff_distance
     parameters = found.parameters
     if contour.n_given != len(contour):

@@ -10,7 +10,7 @@ from tests.support.promise import checked
 
 import shapespline as ss
 from shapespline.errors import InvalidInputError
-from shapespline.geometry import turn_between
+from shapespline.geometry import turn_between, two_sided_distance
 from shapespline.values import CORNER_TURN
 
 
@@ -85,6 +85,23 @@ def test_a_square_is_no_circle():
     assert (kinds(fit), len(fit.corners)) == ({"line"}, 4)
     few = [(0, 0), (1, 0), (1, 1), (0, 1)]
     assert kinds(ss.fit_curve(few, closed=True, tolerance=0.3, form="arcs")) == {"line"}
+
+
+def test_a_shared_border_is_the_same_arcs_and_its_bound_counts_their_twins():
+    bow = around((3, 0), 1.0, -pi / 2, pi / 2, 40)
+    left = ss.Contour(np.concatenate([[(0, -1)], bow, [(0, 1)]]), closed=True)
+    right = ss.Contour(np.concatenate([[(6, 1)], bow[::-1], [(6, -1)]]), closed=True)
+    shape = ss.Shape([left, right])
+    one, two = ss.fit_shape(shape, tolerance=0.01, form="arcs", shared_boundaries=True)
+    for fit in (one, two):
+        found = two_sided_distance(fit.spline, fit.contour)
+        twin = max(piece.twin_error for piece in fit.pieces)
+        assert 0 < twin <= 0.01 * 0.01
+        assert fit.hausdorff_distance == pytest.approx(found.hausdorff_distance + twin, rel=1e-12)
+        assert fit.kept
+    mine, theirs = ([piece.arc for piece in fit.pieces if piece.arc] for fit in (one, two))
+    assert len(mine) >= 1
+    assert {arc.radius for arc in mine} == {arc.radius for arc in theirs}
 
 
 def test_corners_ends_and_points_are_kept():
