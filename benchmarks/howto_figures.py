@@ -76,6 +76,29 @@ def logo_to_dxf(folder: Path) -> None:
     save(figure, TARGET / "logo_to_dxf.png", dpi=80)
 
 
+def machines(folder: Path) -> None:
+    """A gear, and the lines and arcs that ezdxf finds in the bulges of its DXF."""
+    source = DATA / "images" / "fa_gear_256.png"
+    (folder / "gear.png").write_bytes(source.read_bytes())
+    sized = ("--dpi", "96", "--tolerance", "0.1", "--arcs")
+    run(folder, "fit", "gear.png", "-o", "gear.nc", *sized, "--depth", "1.5")
+    run(folder, "fit", "gear.png", "-o", "gear.dxf", *sized)
+    figure, (left, right) = canvas(2)
+    show_picture(left, folder / "gear.png")
+    left.set_title("gear.png")
+    count = {"LINE": 0, "ARC": 0}
+    for outline in ezdxf.readfile(folder / "gear.dxf").modelspace():
+        for part in outline.virtual_entities():
+            kind = part.dxftype()
+            count[kind] += 1
+            path = ezdxf.path.make_path(part)
+            points = np.array([(p.x, p.y) for p in path.flattening(0.001)])
+            right.plot(*points.T, color=BLUE if kind == "ARC" else ORANGE, lw=1.6)
+            right.plot(*points[[0, -1]].T, "o", color=GREY, ms=3)
+    right.set_title(f"lines and arcs: {count['LINE']} lines, {count['ARC']} arcs")
+    save(figure, TARGET / "machines.png", dpi=80)
+
+
 def leaf_to_step(folder: Path) -> None:
     """A leaf, and the STEP file read by OpenCASCADE."""
     source = DATA / "images" / "gameicons_oak-leaf_256.png"
@@ -133,7 +156,7 @@ def folder_of_files(folder: Path) -> None:
 
 def main() -> None:
     """All of them, in a temporary folder."""
-    for page in (logo_to_dxf, leaf_to_step, points_to_svg, folder_of_files):
+    for page in (logo_to_dxf, machines, leaf_to_step, points_to_svg, folder_of_files):
         with tempfile.TemporaryDirectory() as folder:
             page(Path(folder))
 
