@@ -27,8 +27,9 @@ if TYPE_CHECKING:
     from shapespline.monitor import Monitor
     from shapespline.values import Contour, Fit
 
-# Parts of the tolerance that the curve before the arcs is asked to keep (FIT-18).
-CURVE_PARTS = (0.5, 0.1)
+# Parts of the tolerance that the curve before the arcs is asked to keep; first all of it, which is
+# the answer if it is lines and arcs already (FIT-18).
+CURVE_PARTS = (1.0, 0.5, 0.1)
 # Parts of the tolerance that arcs may stray from that curve, the loosest that keeps it taken; and
 # of what the curve left of it, which keeps it whatever the data are, twins included (FIT-18).
 STRAY_PARTS = (1.0, 0.8, 0.65)
@@ -44,7 +45,7 @@ class LinesAndArcs:
     ask: Ask
 
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
-        """One circle or arc; then biarcs of a curve in pieces, looser ones first."""
+        """One circle, or a curve in pieces that is lines and arcs, or biarcs of a curve."""
         request, tolerance = problem.request, problem.request.tolerance or 0.0
         kept = request.constraints.anything or request.constraints.ends or problem.has_corners
         if not kept:
@@ -58,6 +59,11 @@ class LinesAndArcs:
             style = replace(request.style, form="pieces")
             asked = replace(request, goal=Within(part * tolerance), style=style, symmetric=False)
             fit = self.ask(Problem(asked), monitor).fit
+            if part == 1.0:
+                if fit.sections and all(piece.kind in ("line", "arc") for piece in fit.sections):
+                    yield Candidate(method=fit.method, rank=PIECES, pieces=fit.sections)
+                    return
+                continue  # nothing is left for arcs beside the curve
             for stray in _strays(fit, tolerance):
                 try:
                     pieces = lines_and_arcs(fit, stray, nodes)
