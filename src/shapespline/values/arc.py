@@ -156,6 +156,15 @@ class Arc:
         """Arc length, in the unit of the radius."""
         return self.radius * abs(self.sweep)
 
+    def nearest(self, points: ArrayLike) -> FloatArray:
+        """The points of the arc itself that are nearest to points (n, 2), shape (n, 2)."""
+        given = np.asarray(points, dtype=np.float64)
+        x, y = (given - self.centre).T
+        turned = np.copysign(1.0, self.sweep) * (np.arctan2(y, x) - self.start_angle)
+        share = np.mod(turned, FULL_TURN) / abs(self.sweep)
+        to_begin, to_end = (np.hypot(*(given - end).T) for end in (self.begin, self.end))
+        return self.at(np.where(share <= 1.0, share, np.where(to_begin <= to_end, 0.0, 1.0)))
+
     def distances(self, points: ArrayLike) -> FloatArray:
         """Distance of points (n, 2) to the arc itself, shape (n,).
 
@@ -164,13 +173,8 @@ class Arc:
         >>> Arc((0, 0), 1.0, 0.0, pi).distances([(0, 3), (0, 0), (1, -1)]).tolist()
         [2.0, 1.0, 1.0]
         """
-        from_centre = np.asarray(points, dtype=np.float64) - self.centre
-        away = np.hypot(from_centre[:, 0], from_centre[:, 1])
-        ends = np.stack([from_centre + self.centre - end for end in (self.begin, self.end)])
-        nearest_end = np.hypot(ends[..., 0], ends[..., 1]).min(axis=0)
-        angle = np.arctan2(from_centre[:, 1], from_centre[:, 0])
-        along = np.mod(np.copysign(1.0, self.sweep) * (angle - self.start_angle), FULL_TURN)
-        return np.where(along <= abs(self.sweep), np.abs(away - self.radius), nearest_end)
+        away = np.asarray(points, dtype=np.float64) - self.nearest(points)
+        return np.hypot(away[:, 0], away[:, 1])
 
     def reversed(self) -> Arc:
         """The same arc from its end to its beginning."""
