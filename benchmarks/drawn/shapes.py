@@ -6,7 +6,6 @@ judging. Outer outlines run counter-clockwise, holes clockwise.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -16,6 +15,8 @@ from scipy.interpolate import CubicSpline
 from benchmarks.drawn.truth import Arc, Cubic, Line, Outline
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from benchmarks.drawn.truth import Array, Element
 
 
@@ -97,7 +98,9 @@ def star(points: int, inner: float, outer: float = 0.5) -> Outline:
     """Sharp tips and notches in turn."""
     angle = 0.1 + np.pi * np.arange(2 * points) / points
     radius = np.where(np.arange(2 * points) % 2 == 0, outer, inner)
-    return polygon(*zip((radius * np.cos(angle)).tolist(), (radius * np.sin(angle)).tolist(), strict=True))
+    return polygon(
+        *zip((radius * np.cos(angle)).tolist(), (radius * np.sin(angle)).tolist(), strict=True)
+    )
 
 
 def keyhole(radius: float, half: float, length: float) -> Outline:
@@ -115,7 +118,16 @@ def smooth(points: Array, corner: bool = False) -> Outline:
     curve = CubicSpline(s, loop, bc_type="not-a-knot" if corner else "periodic")
     slopes, thirds = curve(s, 1), np.diff(s)[:, None] / 3
     return tuple(
-        Cubic(np.stack([loop[i], loop[i] + thirds[i] * slopes[i], loop[i + 1] - thirds[i] * slopes[i + 1], loop[i + 1]]))
+        Cubic(
+            np.stack(
+                [
+                    loop[i],
+                    loop[i] + thirds[i] * slopes[i],
+                    loop[i + 1] - thirds[i] * slopes[i + 1],
+                    loop[i + 1],
+                ]
+            )
+        )
         for i in range(len(points))
     )
 
@@ -176,8 +188,25 @@ def _pairs() -> dict[str, tuple[Callable[[], tuple[Outline, ...]], float, str]]:
         return (box(1.0, 0.8, radius), *(hole(x, y, size) for x, y in at), hole(0, 0, middle))
 
     ell = [(-0.4, -0.5), (0.4, -0.5), (0.4, -0.28), (-0.15, -0.28), (-0.15, 0.5), (-0.4, 0.5)]
-    tee = [(-0.5, 0.2), (-0.12, 0.2), (-0.12, -0.5), (0.12, -0.5), (0.12, 0.2), (0.5, 0.2), (0.5, 0.45), (-0.5, 0.45)]
-    arrow = [(-0.5, -0.1), (0.1, -0.1), (0.1, -0.28), (0.5, 0.0), (0.1, 0.28), (0.1, 0.1), (-0.5, 0.1)]
+    tee = [
+        (-0.5, 0.2),
+        (-0.12, 0.2),
+        (-0.12, -0.5),
+        (0.12, -0.5),
+        (0.12, 0.2),
+        (0.5, 0.2),
+        (0.5, 0.45),
+        (-0.5, 0.45),
+    ]
+    arrow = [
+        (-0.5, -0.1),
+        (0.1, -0.1),
+        (0.1, -0.28),
+        (0.5, 0.0),
+        (0.1, 0.28),
+        (0.1, 0.1),
+        (-0.5, 0.1),
+    ]
     house = [(-0.4, -0.4), (0.4, -0.4), (0.4, 0.15), (0.0, 0.5), (-0.4, 0.15)]
     return {
         "box": (lambda: (box(1.0, 0.6),), 8.1, "geometric"),
@@ -194,24 +223,44 @@ def _pairs() -> dict[str, tuple[Callable[[], tuple[Outline, ...]], float, str]]:
         "plate": (lambda: plate(0.08, 0.06, 0.16), 11.0, "geometric"),
         "plate level": (lambda: plate(0.12, 0.07, 0.13), 0.0, "geometric"),
         "bracket": (lambda: (rounded(ell, [0, 0.06, 0.06, 0.12, 0.06, 0.06]),), 0.0, "geometric"),
-        "tee": (lambda: (rounded(tee, [0.05, 0.1, 0, 0, 0.1, 0.05, 0.05, 0.05]),), 5.0, "geometric"),
+        "tee": (
+            lambda: (rounded(tee, [0.05, 0.1, 0, 0, 0.1, 0.05, 0.05, 0.05]),),
+            5.0,
+            "geometric",
+        ),
         "star 5": (lambda: (star(5, 0.22),), 0.0, "geometric"),
         "star 7": (lambda: (star(7, 0.3),), 12.0, "geometric"),
         "arrow": (lambda: (polygon(*arrow),), 0.0, "geometric"),
-        "house": (lambda: (polygon(*house), rounded([(-0.1, -0.3), (-0.1, 0.05), (0.1, 0.05), (0.1, -0.3)], 0)), 0.0, "geometric"),
+        "house": (
+            lambda: (
+                polygon(*house),
+                rounded([(-0.1, -0.3), (-0.1, 0.05), (0.1, 0.05), (0.1, -0.3)], 0),
+            ),
+            0.0,
+            "geometric",
+        ),
         "ring": (lambda: (disc(0, 0, 0.5), hole(0, 0, 0.32)), 0.0, "geometric"),
         "washer": (lambda: (disc(0, 0, 0.5), hole(0.05, 0, 0.2)), 20.0, "geometric"),
         "hexagon": (lambda: (star(3, 0.5), hole(0, 0, 0.28)), 4.0, "geometric"),
-        "pebble": (lambda: (wavy(0.35, (2, 0.08, 0.4), (3, 0.05, -1.57), (5, 0.025, 1.0)),), 0.0, "organic"),
-        "blob": (lambda: (wavy(0.36, (2, 0.06, 1.4), (4, 0.04, 0.5), (7, 0.012, 1.0)),), 30.0, "organic"),
-        "lobed": (lambda: (wavy(0.36, (5, 0.09, 0.3), (3, 0.03, -1.57), (11, 0.01, -1.57)),), 0.0, "organic"),
+        "pebble": (
+            lambda: (wavy(0.35, (2, 0.08, 0.4), (3, 0.05, -1.57), (5, 0.025, 1.0)),),
+            0.0,
+            "organic",
+        ),
+        "blob": (
+            lambda: (wavy(0.36, (2, 0.06, 1.4), (4, 0.04, 0.5), (7, 0.012, 1.0)),),
+            30.0,
+            "organic",
+        ),
+        "lobed": (
+            lambda: (wavy(0.36, (5, 0.09, 0.3), (3, 0.03, -1.57), (11, 0.01, -1.57)),),
+            0.0,
+            "organic",
+        ),
         "flower": (lambda: (wavy(0.36, (6, 0.08, 0.2), (2, 0.02, 0.3)),), 10.0, "organic"),
         "leaf": (lambda: (leaf(0.06, 0.22),), 20.0, "organic"),
         "leaf wide": (lambda: (leaf(0.03, 0.3),), -35.0, "organic"),
-    } | {
-        f"letter {c}": ((lambda c=c: letter(c)), 0.0, "letter")
-        for c in "ERSgBaKt"
-    }
+    } | {f"letter {c}": ((lambda c=c: letter(c)), 0.0, "letter") for c in "ERSgBaKt"}
 
 
 def drawings() -> dict[str, Drawing]:

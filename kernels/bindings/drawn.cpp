@@ -20,23 +20,25 @@ void bind_drawn(nb::module_ &m) {
              "arc_arc_corner"_a, "line_free_smooth"_a, "arc_free_smooth"_a, "free_corner"_a,
              "arc_free_corner"_a);
     nb::class_<drawn::SegmentationSettings>(m, "SegmentationSettings")
-        .def(nb::init<double, double, double, double, double, std::int64_t, drawn::JointPrices>(),
-             nb::kw_only(), "deviation"_a, "skip"_a, "shortest"_a, "price"_a, "smooth_turn"_a,
+        .def(nb::init<double, double, double, double, double, double, std::int64_t,
+                      drawn::JointPrices>(),
+             nb::kw_only(), "deviation"_a, "skip"_a, "shortest"_a, "price"_a, "free_parameters"_a,
+             "smooth_turn"_a,
              "stride"_a, "joints"_a);
     m.def(
         "drawn_pieces",
-        [](In2 points, In1 stations, In1 weights, InIndices candidates,
+        [](In2 points, In1 stations, In1 weights, InIndices candidates, InIndices nodes,
            const drawn::SegmentationSettings &settings) {
             nb::gil_scoped_release release;
             drawn::Segmentation search(vectors(points), numbers(stations), numbers(weights),
-                                       indices(candidates), settings);
+                                       indices(candidates), indices(nodes), settings);
             std::vector<std::tuple<std::int64_t, std::int64_t, int>> pieces;
             for (const drawn::DrawnPiece &piece : search.run())
                 pieces.emplace_back(piece.begin, piece.end, piece.kind);
             return std::pair{pieces, search.cost()};
         },
         "points"_a.noconvert(), "stations"_a.noconvert(), "weights"_a.noconvert(),
-        "candidates"_a.noconvert(), "settings"_a);
+        "candidates"_a.noconvert(), "nodes"_a.noconvert(), "settings"_a);
     m.def(
         "taubin_circle",
         [](In2 points, In1 weights) {

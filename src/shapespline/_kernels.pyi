@@ -289,6 +289,7 @@ class SegmentationSettings:
         skip: float,
         shortest: float,
         price: float,  # nats per parameter
+        free_parameters: float,  # of a free-form curve
         smooth_turn: float,  # tangent
         stride: int,  # points
         joints: JointPrices,
@@ -299,6 +300,7 @@ def drawn_pieces(
     stations: FloatArray,  # (n,)
     weights: FloatArray,  # (n,)
     candidates: IntArray,
+    nodes: IntArray,  # empty: all points
     settings: SegmentationSettings,
 ) -> tuple[list[tuple[int, int, int]], float]: ...  # begin, end, kind of each; the cost
 def taubin_circle(

@@ -40,6 +40,8 @@ OPTIONS = {
     "through": [60],
     "symmetric": True,
     "effort": "fast",
+    "character": "drawn",
+    "regularities": None,
     "weights": WEIGHTS,
     "knots": "uniform",
     "outliers": True,
@@ -75,6 +77,17 @@ EXPECTED = {
         ],
         REFUSED,
     ),
+    # What least squares make has no lines and arcs; noise between those is smoothed with the rest.
+    **dict.fromkeys(
+        [
+            *(("character", goal) for goal in ("of size", "estimate, weighted")),
+            *(("character", goal) for goal in DATA if goal.endswith("one spline")),
+            *(("regularities", goal) for goal in DATA),  # beside character="drawn" only
+        ],
+        REFUSED,
+    ),
+    # An arch of half an ellipse has none either: test_drawn.py shows where it acts.
+    **{("character", goal): HOLDS for goal in ("within", "estimate, clean", "estimate, noisy")},
     # Nothing is left to search for: least squares of a size that a criterion chose.
     ("effort", "estimate, noisy, one spline"): HOLDS,
 }
@@ -141,6 +154,7 @@ ACT = {
         distance_to_curve(points[60:61], fit.curve, 1e-3)[0] < 1e-12
     ),
     "effort": lambda fit, points, goal: not same(fit, plain(goal)),
+    "character": lambda fit, points, goal: fit.method == "drawn",
     "weights": heavy_points_are_nearer,
     "knots": lambda fit, points, goal: not same(fit, plain(goal)),
     "outliers": lambda fit, points, goal: fit.outliers.tolist() == [90],

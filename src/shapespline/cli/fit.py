@@ -202,6 +202,21 @@ def fit(
             rich_help_panel=FIT,
         ),
     ] = False,
+    character: Annotated[
+        Literal["fewest", "drawn"],
+        typer.Option(
+            help="The fewest points, or lines, arcs and corners as they were drawn first.",
+            rich_help_panel=FIT,
+        ),
+    ] = "fewest",
+    regularities: Annotated[
+        str,
+        typer.Option(
+            help="With --character drawn, what may be kept exactly: auto, none, or names such as"
+            " axis-parallel,tangent.",
+            rich_help_panel=FIT,
+        ),
+    ] = "auto",
     outliers: Annotated[
         bool,
         typer.Option(
@@ -271,6 +286,8 @@ def fit(
         "effort": effort,
         "ends": ends,
         "symmetric": symmetric,
+        "character": character,
+        "regularities": _regularities(regularities),
         "outliers": outliers,
         "time_limit": time_limit,
     }
@@ -323,6 +340,13 @@ def _as_arcs(
         return asked, writing
     drawn = ending.lower().removeprefix(".") == "dxf"  # one polyline for each outline
     return asked | {"form": "arcs"}, replace(writing, arcs=drawn)
+
+
+def _regularities(said: str) -> str | tuple[str, ...] | None:
+    """Names between commas, auto, or none."""
+    if said in ("auto", "none"):
+        return said if said == "auto" else None
+    return tuple(name.strip() for name in said.split(","))
 
 
 def _typed(context: typer.Context, setting: str) -> bool:

@@ -18,7 +18,8 @@ VERSION = 1
 GOALS = ("tolerance", "n_control_points")
 # Options of a fit that no command can say are not in a file either.
 NAMES = (
-    *GOALS, "degree", "corners", "form", "effort", "ends", "symmetric", "outliers", "time_limit"
+    *GOALS, "degree", "corners", "form", "effort", "ends", "symmetric", "character", "regularities",
+    "outliers", "time_limit"
 )  # fmt: skip
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 import numpy as np
 
 from shapespline.analysis import find_outliers, looks_shuffled
+from shapespline.engines.drawn import NAMES
 from shapespline.engines.least_squares import given_weights
 from shapespline.engines.pieces import Constraints
 from shapespline.errors import (
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
     from shapespline.typing import (
         ArrayLike,
+        Character,
         CornerChoice,
         Effort,
         FloatArray,
@@ -72,11 +74,17 @@ Goal = Within | OfSize | Estimate
 
 @dataclass(frozen=True, eq=False)
 class Style:
-    """How the curve is made: degree, form and corners (a word, or indices of the contour)."""
+    """How the curve is made: degree, form and corners (a word, or indices of the contour).
+
+    ``character`` says whether structure comes before few points, ``regularities`` which may be
+    taken then.
+    """
 
     degree: int = 3
     form: Form = "pieces"
     corners: CornerChoice | IntArray | None = "auto"
+    character: Character = "fewest"
+    regularities: tuple[str, ...] = NAMES
 
     @property
     def free(self) -> bool:
@@ -151,7 +159,7 @@ class Request:
         request = cls(
             contour=contour,
             goal=_goal(settings, contour),
-            style=Style(settings.degree, settings.form, _corners(settings, contour)),
+            style=_style(settings, contour),
             constraints=_constraints(settings, contour),
             symmetric=settings.symmetric,
             weights=None if settings.weights is None else given_weights(settings.weights, contour),
@@ -251,7 +259,7 @@ class Request:
         return Request(
             contour=contour,
             goal=Within(within),
-            style=replace(self.style, corners=corners),
+            style=replace(self.style, corners=corners, character="fewest"),
             constraints=Constraints(True, nodes, (directions[0], directions[1])),
             effort=self.effort,
             is_part=True,
@@ -295,6 +303,7 @@ class Request:
         goal, style, kept = dict(said["goal"]), dict(said["style"]), said["constraints"]
         if isinstance(style["corners"], list):
             style["corners"] = np.array(style["corners"], dtype=np.int64)
+        style["regularities"] = tuple(style["regularities"])
         begin, end = (None if t is None else np.array(t) for t in kept["tangents"])
         return cls(
             contour=Contour.silently(said["points"], said["closed"], accuracy=said["accuracy"]),
@@ -326,6 +335,14 @@ def _goal(settings: Settings, contour: Contour) -> Goal:
     if settings.n_control_points is not None:
         return OfSize(settings.n_control_points, settings.knots, settings.method)
     return Estimate(settings.method)
+
+
+def _style(settings: Settings, contour: Contour) -> Style:
+    names = settings.regularities
+    names = NAMES if names == "auto" else () if names is None else tuple(names)
+    return Style(
+        settings.degree, settings.form, _corners(settings, contour), settings.character, names
+    )
 
 
 def _corners(settings: Settings, contour: Contour) -> CornerChoice | IntArray | None:

@@ -20,10 +20,10 @@ from shapespline.validation import checked_flag
 from shapespline.values import Contour, Drawing, Shape
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from shapespline.monitor import Callback
-    from shapespline.typing import CornerChoice, Effort, Ends, Form
+    from shapespline.typing import Character, CornerChoice, Effort, Ends, Form
     from shapespline.values import Fit, Piece
 
 # Of the tolerance: points of two contours that are no farther apart are one point of a boundary.
@@ -44,6 +44,8 @@ def fit_shape(
     time_limit: float | None = None,
     ends: Ends = "free",
     symmetric: bool = False,
+    character: Character = "fewest",
+    regularities: str | Sequence[str] | None = "auto",
     outliers: bool = False,
     shared_boundaries: bool = False,
 ) -> Drawing:
@@ -58,7 +60,8 @@ def fit_shape(
         Data units, or a part of the box diagonal of the whole shape, such as ``"0.1%"``.
     n_control_points : int, optional
         Number of control points of each curve; chosen for each contour when neither is given.
-    degree, corners, form, effort, method, callback, time_limit, ends, symmetric, outliers
+    degree, corners, form, effort, method, callback, time_limit, ends, symmetric, character,
+    regularities, outliers
         See `fit_curve`; the limit is that of each contour.
     shared_boundaries : bool
         Fit boundaries that contours share (the same points, as far as a hundredth of the
@@ -95,6 +98,8 @@ def fit_shape(
         form=form,
         ends=ends,
         symmetric=symmetric,
+        character=character,
+        regularities=regularities,
         effort=effort,
         outliers=outliers,
         method=method,

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from shapespline.geometry import Distances
     from shapespline.monitor import Iteration, Monitor
     from shapespline.solvers import Result
-    from shapespline.values import BSplineCurve, Contour, Piece
+    from shapespline.values import BSplineCurve, Contour, Piece, Regularity
 
 
 # Roundings of the coordinates of two control points, in parts of the larger.
@@ -52,6 +52,8 @@ class Candidate:
         Of one spline, if it was measured.
     run, history
         How the iterations ended and their records, where the curve is theirs.
+    regularities : tuple of Regularity
+        What the pieces keep exactly.
     """
 
     method: str
@@ -62,6 +64,7 @@ class Candidate:
     fairness: Fairness | None = None
     run: Result | None = None
     history: tuple[Iteration, ...] = ()
+    regularities: tuple[Regularity, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +115,8 @@ def verify(candidate: Candidate, request: Request) -> Verified:
         sections=candidate.pieces,
         distances=candidate.distances,
     )
+    if candidate.regularities:
+        fit = replace(fit, regularities=candidate.regularities)
     error = _tangent_error(fit.pieces, request.constraints)
     if error:
         turn = np.degrees(error)

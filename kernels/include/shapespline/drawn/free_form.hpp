@@ -37,7 +37,8 @@ class GrowingQuintic {
                 y_[k] += power * p.y;
             }
         }
-        squares_ += weight * (static_cast<long double>(p.x) * p.x + static_cast<long double>(p.y) * p.y);
+        const long double px = p.x, py = p.y;
+        squares_ += weight * (px * px + py * py);
         last_ = static_cast<double>(u);
     }
 

@@ -40,6 +40,7 @@ struct SegmentationSettings {
     double skip;        // points this near to a node do not count
     double shortest;    // length of a piece
     double price;       // nats per parameter
+    double free_parameters;  // of a free-form curve
     double smooth_turn; // tangent of the largest turn of a smooth joint
     std::int64_t stride;// points between candidates for the nodes of free-form runs
     JointPrices joints;
@@ -53,9 +54,10 @@ struct DrawnPiece {
 class Segmentation {
   public:
     // A row of points, their arc lengths and weights; `candidates` are further nodes of free-form
-    // runs.
+    // runs, `nodes` the points that may be nodes at all, every one if there are none.
     Segmentation(std::span<const Vec2> points, std::span<const double> stations,
                  std::span<const double> weights, std::span<const std::int64_t> candidates,
+                 std::span<const std::int64_t> nodes,
                  const SegmentationSettings &settings)
         : points_(points), s_(stations), weights_(weights), settings_(settings),
           moments_(points, weights), n_(points.size()), states_(n_) {
@@ -64,7 +66,7 @@ class Segmentation {
         limit_ = 80.0 + 0.6 * std::min(moments_.weight(0, n_ - 1), 400.0);
         near_[0] = beside(settings.skip);
         near_[1] = beside(0.5 * settings.skip);
-        lay_candidates(candidates);
+        lay_candidates(candidates, nodes);
     }
 
     std::vector<DrawnPiece> run() {
@@ -109,13 +111,16 @@ class Segmentation {
         return found;
     }
 
-    void lay_candidates(std::span<const std::int64_t> more) {
+    void lay_candidates(std::span<const std::int64_t> more, std::span<const std::int64_t> nodes) {
+        may_be_node_.assign(n_, nodes.empty());
+        for (const std::int64_t i : nodes) may_be_node_[i] = 1;
+        may_be_node_[0] = may_be_node_[n_ - 1] = 1;
         is_candidate_.assign(n_, 0);
         for (std::size_t i = 0; i < n_; i += settings_.stride) is_candidate_[i] = 1;
         for (const std::int64_t i : more) is_candidate_[i] = 1;
         is_candidate_[0] = is_candidate_[n_ - 1] = 1;
         for (std::size_t i = 0; i < n_; ++i)
-            if (is_candidate_[i]) candidates_.push_back(i);
+            if (is_candidate_[i] && may_be_node_[i]) candidates_.push_back(i);
     }
 
     bool reached(std::size_t i) const {
@@ -141,7 +146,7 @@ class Segmentation {
         const double price = settings_.price;
         for (std::size_t j = i + 1; j < n_; ++j) {
             const double length = s_[j] - s_[i];
-            if (length < settings_.shortest) continue;
+            if (!may_be_node_[j] || length < settings_.shortest) continue;
             const auto [first, last] = counted(i, j);
             const CentralMoments central(moments_.of(first, last));
             const LineFit line = fit_line(central);
@@ -186,7 +191,8 @@ class Segmentation {
             const FreeForm found = quintic.solved(s_[i], s_[j]);
             const double weight = moments_.weight(first, last);
             const double misfit = 0.5 * precision_ * found.sum_sq;
-            offer(i, j, kFree, misfit + uncounted(i, j, weight) + 4.0 * settings_.price,
+            offer(i, j, kFree, misfit + uncounted(i, j, weight) + settings_.free_parameters *
+                  settings_.price,
                   found.begin, found.end);
             hopeless = misfit - 0.5 * weight > limit_ ? hopeless + 1 : 0;
         }
@@ -241,7 +247,7 @@ class Segmentation {
     std::vector<std::array<State, kKinds>> states_;
     double precision_ = 0.0, limit_ = 0.0;
     std::array<Beside, 2> near_;
-    std::vector<char> is_candidate_;
+    std::vector<char> is_candidate_, may_be_node_;
     std::vector<std::size_t> candidates_;
 };
 

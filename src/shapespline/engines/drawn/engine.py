@@ -2,81 +2,47 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn.joints import direction_at, meeting, onto, turn_at, unit_of
+from shapespline.engines.drawn.ends import (
+    SMOOTH_END,
+    cut_off,
+    first_on,
+    last_on,
+    nodes_of,
+    sweep_of,
+)
+from shapespline.engines.drawn.joints import direction_at
+from shapespline.engines.drawn.judgement import (
+    HOPELESS,
+    LARGEST,
+    LEAST_SAID,
+    is_enough,
+    misfitting,
+    repeated,
+)
 from shapespline.engines.drawn.model import Model, circle_of
 from shapespline.engines.drawn.observed import Observed
-from shapespline.engines.drawn.regularities import NAMES, Regularity, Search
-from shapespline.engines.drawn.segments import ARC, FREE, LINE, Segments, segmented
+from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
+from shapespline.engines.drawn.regularities import NAMES, Search
+from shapespline.engines.drawn.segments import FREE, LINE, Segments, segmented, supported
+from shapespline.values import Arc
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
+    from shapespline.engines.drawn.parts import Part
     from shapespline.typing import FloatArray
-    from shapespline.values import Contour
+    from shapespline.values import Contour, Regularity
 
 # Fewer points tell no structure.
 FEWEST_POINTS = 12
 # A whole circle is within so many deviations in the mean (DRA-06).
 ROUND = 2.0
-# An element whose points are off by more deviations in the mean, or at most, is none (DRA-06).
-MEAN, LARGEST = 2.0, 6.0
-# A node is no farther from its data than so many steps and deviations: lines that are nearly
-# parallel meet anywhere (DRA-06).
-NODE_STEPS, NODE_DEVIATIONS = 3.0, 20.0
-# A free-form run goes on smoothly from an element if its data do, radians.
-SMOOTH_END = 0.2
 # Data within so many steps of a node tell its direction.
 DIRECTION_STEPS = 4
-
-
-@dataclass(frozen=True, eq=False)
-class DrawnLine:
-    """A straight edge."""
-
-    begin: FloatArray
-    end: FloatArray
-
-
-@dataclass(frozen=True, eq=False)
-class DrawnArc:
-    """Part of a circle, from an angle on by a sweep, counter-clockwise if positive; radians."""
-
-    centre: FloatArray
-    radius: float
-    start: float
-    sweep: float
-    begin: FloatArray
-    end: FloatArray
-
-
-@dataclass(frozen=True, eq=False)
-class FreeRun:
-    """Data that neither explains: points with both ends, and tangents there that are known."""
-
-    points: FloatArray
-    tangents: tuple[FloatArray | None, FloatArray | None]
-    closed: bool = False
-
-
-Part = DrawnLine | DrawnArc | FreeRun
-
-
-@dataclass(frozen=True, eq=False)
-class Drawn:
-    """Parts end to end, and the regularities that they keep, by their places among the parts."""
-
-    parts: tuple[Part, ...]
-    regularities: tuple[Regularity, ...]
-
-    @property
-    def n_elements(self) -> int:
-        """How many lines and arcs there are."""
-        return sum(not isinstance(part, FreeRun) for part in self.parts)
 
 
 def as_drawn(
@@ -113,16 +79,24 @@ def as_drawn(
         whole = _whole_circle(seen)
         if whole is not None:
             return Drawn((whole,), ())
-    row = segmented(seen)
+    row = supported(segmented(seen), contour.closed)
     for _ in range(len(row.found)):
-        if all(segment.kind == FREE for segment in row.found):
-            return None
         model = Model.of(seen, row)
-        found = Search(model, regularities).run()
-        bad = _misfitting(model, tolerance)
+        if not is_enough(model):
+            return None
+        bad = misfitting(model, tolerance)  # each alone first, which is soon done
         if not bad:
-            return _drawn(model, found)
-        row = _without(row, bad)
+            found = Search(model, NAMES).run()
+            said = repeated(model, found)
+            bad = misfitting(model, tolerance)
+            if said < LEAST_SAID * (1.0 if not bad else HOPELESS):
+                return None
+        if not bad:
+            if set(regularities) != set(NAMES):
+                model = Model.of(seen, row)
+                found = Search(model, regularities).run()
+            return _drawn(model, found, tolerance)
+        row = supported(_without(row, bad), contour.closed)
     return None
 
 
@@ -138,92 +112,37 @@ def _whole_circle(seen: Observed) -> DrawnArc | None:
         return None
     x, y = points.T
     area = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+    arc = Arc((cx, cy), r, 0.0, 2 * np.pi if area > 0 else -2 * np.pi)
     begin = np.array([cx + r, cy])
-    sweep = 2 * np.pi if area > 0 else -2 * np.pi
-    return DrawnArc(np.array([cx, cy]), r, 0.0, sweep, begin, begin)
-
-
-def _misfitting(model: Model, tolerance: float) -> list[int]:
-    """Elements that their own data contradict, the worst alone where others may be its victims."""
-    bad: list[tuple[float, int]] = []
-    sigma = model.seen.largest_deviation
-    for k, misfit in model.misfits().items():
-        points, _ = model.counted(k)
-        off = np.abs(_off(model, k, points))
-        mean = misfit.mean * model.seen.deviation / sigma
-        far = max(mean / MEAN, float(off.max()) / min(LARGEST * sigma, tolerance))
-        if far > 1.0:
-            bad.append((far, k))
-    if bad:
-        return [max(bad)[1]]
-    nodes = _nodes(model)
-    reach = NODE_STEPS * model.seen.step + NODE_DEVIATIONS * sigma
-    for k, node in nodes.items():
-        at = model.row.points[model.row.found[k].end]
-        if k in model.at and (k + 1) % len(model.row.found) in model.at:
-            far = float(np.hypot(*(node - at))) / reach
-            # Blunted corners lie farther from their points the sharper they are.
-            turn = turn_at(model, k, (k + 1) % len(model.row.found), node)
-            far *= float(np.cos(0.5 * turn)) ** 0.5
-            if far > 1.0:
-                bad.append((far, min(k, (k + 1) % len(model.row.found), key=lambda m: _length(model, m))))
-    return [max(bad)[1]] if bad else []
-
-
-def _length(model: Model, k: int) -> float:
-    s, (i, j, _) = model.row.stations, model.row.found[k]
-    return float(s[j] - s[i])
-
-
-def _off(model: Model, k: int, points: FloatArray) -> FloatArray:
-    """Signed distances of points from the whole line or circle of an element."""
-    o = model.at[k]
-    if model.kind(k) == LINE:
-        tx, ty = unit_of(float(model.x[o]))
-        return tx * points[:, 1] - ty * points[:, 0] - model.x[o + 1]
-    return np.hypot(*(points - model.x[o : o + 2]).T) - model.x[o + 2]
+    return DrawnArc(arc, begin, begin)
 
 
 def _without(row: Segments, bad: list[int]) -> Segments:
-    """The row with some segments free-form; it begins with an element, if there is one."""
+    """The row with some segments free-form."""
     found = tuple(s._replace(kind=FREE) if k in bad else s for k, s in enumerate(row.found))
-    row = row._replace(found=found)
-    closed = bool((row.points[0] == row.points[-1]).all())
-    whole = next((k for k, s in enumerate(found) if s.kind != FREE), 0)
-    return row.turned(whole) if closed else row
+    return row._replace(found=found)
 
 
-def _nodes(model: Model) -> dict[int, FloatArray]:
-    """Where each segment ends, if it or the next one is an element; -1 for an open beginning."""
-    found, n = model.row.found, len(model.row.found)
-    points, nodes = model.row.points, {}
-    for k in range(n):
-        m, at = (k + 1) % n, points[found[k].end]
-        if m == 0 and not model.seen.closed:
-            m = -1
-        if k in model.at and m in model.at and k != m:
-            nodes[k] = meeting(model, k, m, at)
-        elif k in model.at:
-            nodes[k] = onto(model, k, at)
-        elif m in model.at:
-            nodes[k] = onto(model, m, at)
-    if not model.seen.closed and 0 in model.at:
-        nodes[-1] = onto(model, 0, points[0])
-    elif model.seen.closed and n - 1 in nodes:
-        nodes[-1] = nodes[n - 1]
-    return nodes
-
-
-def _drawn(model: Model, found: list[Regularity]) -> Drawn:
+def _drawn(model: Model, found: list[Regularity], tolerance: float) -> Drawn:
     """Elements between their nodes, free-form runs between them."""
-    segments, nodes = model.row.found, _nodes(model)
+    segments, nodes = model.row.found, nodes_of(model)
+    n = len(segments)
+    begins = {k: nodes[k - 1] for k in model.at}
+    ends = {k: nodes[k] for k in model.at}
+    for k in model.at:
+        m = (k + 1) % n if model.seen.closed else k + 1
+        if m in model.at and m != k:
+            ends[k], begins[m] = cut_off(model, k, m, nodes[k], tolerance)
     parts: list[Part] = []
     place: dict[int, int] = {}
-    k, n = 0, len(segments)
+    k = 0
     while k < n:
         if k in model.at:
             place[k] = len(parts)
-            parts.append(_element(model, k, nodes[k - 1], nodes[k]))
+            parts.append(_element(model, k, begins[k], ends[k]))
+            m = (k + 1) % n if model.seen.closed else k + 1
+            if m in model.at and (begins[m] != ends[k]).any():
+                parts.append(DrawnLine(ends[k], begins[m]))
             k += 1
             continue
         last = k
@@ -231,7 +150,7 @@ def _drawn(model: Model, found: list[Regularity]) -> Drawn:
             last += 1
         parts.append(_free_run(model, k, last, nodes))
         k = last + 1
-    kept = tuple(one._replace(segments=tuple(place[s] for s in one.segments)) for one in found)
+    kept = tuple(one._replace(pieces=tuple(place[s] for s in one.pieces)) for one in found)
     return Drawn(tuple(parts), kept)
 
 
@@ -239,29 +158,35 @@ def _element(model: Model, k: int, begin: FloatArray, end: FloatArray) -> DrawnL
     if model.kind(k) == LINE:
         return DrawnLine(begin, end)
     o = model.at[k]
-    centre, radius = model.x[o : o + 2].copy(), float(model.x[o + 2])
-    first, last = (float(np.arctan2(*(p - centre)[::-1])) for p in (begin, end))
-    sweep = (last - first) % (2 * np.pi) if model.ways[k] > 0 else -((first - last) % (2 * np.pi))
-    return DrawnArc(centre, radius, first, sweep, begin, end)
+    centre, radius = model.x[o : o + 2], float(model.x[o + 2])
+    first, sweep = sweep_of(model, k, begin, end)
+    return DrawnArc(Arc((float(centre[0]), float(centre[1])), radius, first, sweep), begin, end)
 
 
 def _free_run(model: Model, k: int, last: int, nodes: dict[int, FloatArray]) -> FreeRun:
     """The data of segments k to last, from node to node."""
     row, n = model.row, len(model.row.found)
+    closed = model.seen.closed
+    before, after = ((k - 1) % n, (last + 1) % n) if closed else (k - 1, last + 1)
     i, j = row.found[k].begin, row.found[last].end
-    points = row.points[i : j + 1].copy()
+    points = row.points[i : j + 1]
+    if before in model.at:
+        left = row.points[last_on(model, before) : row.found[before].end]
+        points = np.concatenate([left, points])
+    if after in model.at:
+        right = row.points[row.found[after].begin + 1 : first_on(model, after) + 1]
+        points = np.concatenate([points, right])
+    points = points.copy()
     tangents: list[FloatArray | None] = [None, None]
     reach = min(DIRECTION_STEPS, len(points) - 1)
-    closed = model.seen.closed
-    before, after = (k - 1, (last + 1) % n) if closed else (k - 1, last + 1)
-    if closed:
-        before %= n
     if before in model.at:
         points[0] = nodes[(k - 1) if k > 0 else -1]
         tangents[0] = _smooth(direction_at(model, before, points[0]), points[reach] - points[0])
     if after in model.at:
         points[-1] = nodes[last]
-        tangents[1] = _smooth(direction_at(model, after, points[-1]), points[-1] - points[-1 - reach])
+        tangents[1] = _smooth(
+            direction_at(model, after, points[-1]), points[-1] - points[-1 - reach]
+        )
     return FreeRun(points, (tangents[0], tangents[1]))
 
 

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 # Lines whose directions differ by less have no intersection that data tell; circles that miss each
 # other by this part of a radius touch.
 PARALLEL, TOUCHES = 0.02, 1e-4
+# Directions that differ from an axis by less lie along it, radians.
+EXACT = 1e-10
 
 
 def direction_at(model: Model, k: int, point: FloatArray) -> FloatArray:
@@ -29,9 +31,9 @@ def direction_at(model: Model, k: int, point: FloatArray) -> FloatArray:
 
 
 def unit_of(angle: float) -> FloatArray:
-    """A unit vector; multiples of a right angle have exact ones."""
+    """A unit vector; multiples of a right angle, but for rounding, have exact ones."""
     quarter = round(angle / (pi / 2))
-    if angle == quarter * (pi / 2):
+    if abs(angle - quarter * (pi / 2)) < EXACT:
         return np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][quarter % 4])
     return np.array([cos(angle), sin(angle)])
 

@@ -1,7 +1,6 @@
 """Lines and circles of an outline in one vector of unknowns, estimated under equations.
 
-Gauss and Newton's method on distances across, the equations by Lagrange's multipliers; where some
-follow from others a trace of regularisation leaves the smallest multipliers.
+Gauss and Newton's method on distances across, in the null space of the linearised equations.
 """
 
 from __future__ import annotations
@@ -21,9 +20,10 @@ if TYPE_CHECKING:
     from shapespline.engines.drawn.segments import Segments
     from shapespline.typing import FloatArray, IntArray
 
-# Multipliers are regularised by this part of the largest entry; rounds, and the step that ends them
-# in parts of the extent.
-REGULAR, ROUNDS, LEAST_STEP = 1e-12, 8, 1e-11
+# Rounds, and the step that ends them in parts of the extent.
+ROUNDS, LEAST_STEP = 8, 1e-11
+# An equation follows from others if it leaves less than this part of its entries.
+IMPLIED = 1e-8
 # No step is longer than this part of the extent.
 LONGEST_STEP = 0.3
 # Short pieces count points nearer to their nodes, by this part.
@@ -142,7 +142,9 @@ class Model:
             gradient[at] = np.add.reduceat(weighted * off, group.begins, axis=1)
             squares = np.add.reduceat(w * off**2, group.begins) / self.seen.deviation**2
             sums = np.add.reduceat(w, group.begins)
-            for k, square, total in zip(group.segments, squares.tolist(), sums.tolist(), strict=True):
+            for k, square, total in zip(
+                group.segments, squares.tolist(), sums.tolist(), strict=True
+            ):
                 misfits[k] = Misfit(square, total)
         return matrix, gradient, misfits
 
@@ -190,55 +192,68 @@ class Model:
 
     def solve(self, rounds: int = ROUNDS) -> None:
         """The best estimate under the constraints."""
-        n = len(self.x)
-        if not n:
+        if not len(self.x):
             return
         for _ in range(rounds):
             matrix, gradient, _misfits = self.normal(self.x)
-            scale = np.sqrt(np.maximum(np.diag(matrix), 1e-12 * np.trace(matrix) / n))
-            h, jacobian = self.equations(self.x)
-            m = len(h)
-            rows = np.maximum(np.linalg.norm(jacobian / scale, axis=1), 1e-300)
-            a = jacobian / scale / rows[:, None]
-            system = np.zeros((n + m, n + m))
-            system[:n, :n] = matrix / np.outer(scale, scale) + 1e-10 * np.eye(n)
-            system[n:, :n], system[:n, n:] = a, a.T
-            system[n:, n:] = -REGULAR * np.eye(m)
-            right = np.concatenate([-gradient / scale, -h / rows])
-            step = np.linalg.solve(system, right)[:n] / scale
+            onto, space = self.null_space()
+            # Unknowns that no data tell, of a motion that is determined, stay.
+            reduced = space.T @ matrix @ space
+            reduced[np.diag_indices_from(reduced)] += 1e-12 * max(float(np.trace(reduced)), 1e-300)
+            step = onto + space @ np.linalg.solve(reduced, -space.T @ (gradient + matrix @ onto))
             largest = float(np.abs(step).max())
             self.x = self.x + step * min(1.0, LONGEST_STEP * self.extent / max(largest, 1e-300))
             if largest < LEAST_STEP * self.extent:
                 break
 
+    def null_space(self) -> tuple[FloatArray, FloatArray]:
+        """The steps that meet the constraints, linearised: one of them, and a basis of all.
+
+        Equations take one unknown each out of those that are left, that with the largest entry
+        (Gauss). Directions count in arcs of the extent, as the other unknowns are lengths.
+        """
+        n = len(self.x)
+        unit = np.ones(n)
+        unit[[o for k, o in self.at.items() if self.kind(k) == LINE]] = 1.0 / self.extent
+        space, onto, left = np.diag(unit), np.zeros(n), np.ones(n, dtype=bool)
+        h, jacobian = self.equations(self.x)
+        for value, row in zip(h, jacobian, strict=True):
+            told = row @ space
+            pivot = int(np.argmax(np.abs(told)))
+            if abs(told[pivot]) <= IMPLIED * float(np.abs(row * unit).max()):
+                continue
+            column = space[:, pivot] / told[pivot]
+            onto -= column * (value + row @ onto)
+            space -= column[:, None] * told
+            space[:, pivot], left[pivot] = 0.0, False
+        return onto, space[:, left]
+
     def covariance(self) -> FloatArray:
         """Of the estimate under all constraints, systematic errors added."""
         matrix, _, misfits = self.normal(self.x)
-        n, own = len(self.x), self.n_own
+        n, own_end = len(self.x), self.n_own
         found = np.zeros((n, n))
-        found[range(own, n), range(own, n)] = (10 * self.extent) ** 2
+        found[range(own_end, n), range(own_end, n)] = (10 * self.extent) ** 2
         floor = self.seen.floor
         for k, o in self.at.items():
             size = 2 if self.kind(k) == LINE else 3
             block = matrix[o : o + size, o : o + size]
-            inverse = np.linalg.pinv(block, hermitian=True)
+            inverse = np.linalg.inv(block + 1e-13 * float(np.trace(block)) * np.eye(size))
             chi_sq, weight = misfits[k]
             inverse *= max(1.0, chi_sq / max(weight - size, 1.0))
             i, j, _kind = self.row.found[k]
             length = max(float(self.row.stations[j] - self.row.stations[i]), 1e-300)
             extra = [2 * floor / length, floor] if size == 2 else [floor] * 3
             found[o : o + size, o : o + size] = inverse + np.diag(np.square(extra))
-        _, a = self.equations(self.x)
-        return conditioned(found, a) if len(a) else found
-
-
-def conditioned(covariance: FloatArray, a: FloatArray) -> FloatArray:
-    """A covariance when a x is known: a Kalman step without noise."""
-    ac = a @ covariance
-    values, vectors = np.linalg.eigh(ac @ a.T)
-    told = values > 1e-11 * values[-1]
-    half = ac.T @ vectors[:, told] / np.sqrt(values[told])
-    return covariance - half @ half.T
+        if not self.constraints:
+            return found
+        _, space = self.null_space()
+        weights = np.zeros((n, n))
+        for k, o in self.at.items():
+            own = slice(o, o + (2 if self.kind(k) == LINE else 3))
+            weights[own, own] = np.linalg.inv(found[own, own])
+        weights[range(own_end, n), range(own_end, n)] = (10 * self.extent) ** -2
+        return space @ np.linalg.inv(space.T @ weights @ space) @ space.T
 
 
 def _line_of(points: FloatArray, weights: FloatArray) -> list[float]:
@@ -247,7 +262,10 @@ def _line_of(points: FloatArray, weights: FloatArray) -> list[float]:
     along = np.linalg.eigh((off * weights[:, None]).T @ off)[1][:, 1]
     if along @ (points[-1] - points[0]) < 0:
         along = -along
-    return [float(np.arctan2(along[1], along[0])), float(along[0] * middle[1] - along[1] * middle[0])]
+    return [
+        float(np.arctan2(along[1], along[0])),
+        float(along[0] * middle[1] - along[1] * middle[0]),
+    ]
 
 
 def circle_of(points: FloatArray, weights: FloatArray) -> list[float]:

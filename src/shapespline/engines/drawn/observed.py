@@ -24,8 +24,8 @@ SLOW, BEST = 3.0, 0.3
 # Points of a table are not known better than this part of the extent (DRA-02).
 LAST_DIGIT = 1e-5
 # Dense noisy points are averaged until their steps are longer than their noise; arc length would be
-# the noise's, not the outline's (DRA-03). More points than these are averaged, too.
-MOST_POINTS = 3000
+# the noise's, not the outline's (DRA-03). Of more measured points than these some are looked at.
+MOST_POINTS = 1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +44,6 @@ class Observed:
         What averaging does not take away: systematic errors of a picture.
     pixel : float
         0 for measured points.
-    index : ndarray, shape (n,)
-        The data point that each stands for.
     """
 
     points: FloatArray
@@ -54,28 +52,28 @@ class Observed:
     largest_deviation: float
     floor: float
     pixel: float
-    index: FloatArray
 
     @classmethod
     def of(cls, contour: Contour, accuracy: float | None) -> Observed:
         """A contour; ``accuracy`` is what its picture knows, None for measured points."""
         points, closed = contour.points, contour.closed
         step = float(np.median(np.diff(contour.arc_length)))
-        index = np.arange(len(points))
         if accuracy:
             shown = noise_level(Contour.trusted(points, closed))
             deviation = min(max(SLOW * shown, BEST * accuracy), accuracy) if shown else accuracy
             floor = SYSTEMATIC * deviation
-            return cls(points, closed, deviation, accuracy, floor, step, index)
+            return cls(points, closed, deviation, accuracy, floor, step)
         extent = float(np.ptp(points, axis=0).max())
         deviation = max(noise_level(contour), LAST_DIGIT * extent)
         k = _averaged(points, closed, deviation)
+        every = len(points) // (max(k, 1) * MOST_POINTS)
+        if k == 1 and every > 1:
+            points = points[::every]
         if k > 1:
             m = len(points) // k
             points = points[: m * k].reshape(m, k, 2).mean(axis=1)
-            index = np.minimum(np.arange(m) * k + k // 2, len(index) - 1)
             deviation = max(deviation / k**0.5, LAST_DIGIT * extent)
-        return cls(points, closed, deviation, deviation, 0.0, 0.0, index)
+        return cls(points, closed, deviation, deviation, 0.0, 0.0)
 
     @property
     def skip(self) -> float:
@@ -90,14 +88,13 @@ class Observed:
 
 def _averaged(points: FloatArray, closed: bool, deviation: float) -> int:
     """How many neighbours are averaged."""
-    least = ceil(len(points) / MOST_POINTS)
     k = 9
     if len(points) <= 100:
-        return least
+        return 1
     wide = np.concatenate([points[-k:], points, points[:k]]) if closed else points
     sums = np.cumsum(wide, axis=0)
     soft = (sums[k:] - sums[:-k]) / k
     step = float(np.median(np.hypot(*(soft[k:] - soft[:-k]).T))) / k
     if step >= deviation:
-        return least
-    return max(least, ceil((deviation / step) ** (2 / 3)))
+        return 1
+    return ceil((deviation / step) ** (2 / 3))

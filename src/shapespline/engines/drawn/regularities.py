@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import hypot, log, pi, remainder
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,12 +17,13 @@ from shapespline.engines.drawn.constraints import CirclesTouch, Difference, Line
 from shapespline.engines.drawn.joints import meeting, turn_at
 from shapespline.engines.drawn.segments import ARC, LINE
 from shapespline.engines.drawn.symmetry import symmetries
+from shapespline.values import Regularity
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator
 
     from shapespline.engines.drawn.constraints import Constraint
-    from shapespline.engines.drawn.model import Model
+    from shapespline.engines.drawn.model import Misfit, Model
     from shapespline.typing import FloatArray
 
 NAMES = (
@@ -48,18 +49,6 @@ WORSE_PART, WORSE_BY, ANYHOW = 1.5, 0.7, 1.5
 MET = 1e-8
 # Variances below this part of the largest are none: the equation follows from others.
 IMPLIED, TINY = 1e-10, 1e-300
-
-
-class Regularity(NamedTuple):
-    """Something that a curve keeps exactly, and the segments that it is about.
-
-    ``off`` is how far the data alone were from it: degrees, or data units.
-    """
-
-    name: str
-    segments: tuple[int, ...]
-    off: float
-    order: int = 1
 
 
 @dataclass(eq=False)
@@ -158,11 +147,11 @@ class Search:
             o = model.at[k]
             turn = round(model.x[o] / quarter) * quarter
             off = float(model.x[o] - turn)
-            if "axis-parallel" in self.allowed and abs(off) < DIRECTIONS:
-                if self.takes(Difference((o,), (), turn), quarter):
-                    heads.insert(0, k)
-                    yield Regularity("axis-parallel", (k,), float(np.degrees(off)))
-                    continue
+            level = "axis-parallel" in self.allowed and abs(off) < DIRECTIONS
+            if level and self.takes(Difference((o,), (), turn), quarter):
+                heads.insert(0, k)
+                yield Regularity("axis-parallel", (k,), float(np.degrees(off)))
+                continue
             for head in heads:
                 p = model.at[head]
                 turns = round((model.x[o] - model.x[p]) / quarter)
@@ -177,7 +166,8 @@ class Search:
                 heads.append(k)
 
     def _centres(self) -> Iterator[Regularity]:
-        model, heads = self.model, []
+        model = self.model
+        heads: list[int] = []
         for k in self._best_known(ARC, 2):
             o = model.at[k]
             for head in heads:
@@ -192,7 +182,8 @@ class Search:
                 heads.append(k)
 
     def _radii(self) -> Iterator[Regularity]:
-        model, heads = self.model, []
+        model = self.model
+        heads: list[int] = []
         for k in self._best_known(ARC, 2):
             o = model.at[k] + 2
             for head in heads:
@@ -241,7 +232,7 @@ def tangency(model: Model, k: int, m: int) -> Constraint | None:
     return CirclesTouch(model.at[k], model.at[m], model.ways[k] == model.ways[m])
 
 
-def fits_badly(model: Model, before: dict[int, tuple[float, float]]) -> bool:
+def fits_badly(model: Model, before: dict[int, Misfit]) -> bool:
     """Whether equations are not met, or an element fits worse than noise explains."""
     h, _ = model.equations(model.x)
     if len(h) and float(np.abs(h).max()) > MET * model.extent:

@@ -9,12 +9,16 @@ import numpy as np
 from shapespline import _kernels
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.engines.drawn.observed import Observed
-    from shapespline.typing import FloatArray
+    from shapespline.typing import FloatArray, IntArray
 
 LINE, ARC, FREE = 0, 1, 2
 # Nats per parameter; smooth joints turn by less than this, radians (DRA-01).
 PRICE, SMOOTH = 4.0, 0.14
+# A free-form curve counts as so many parameters (DRA-01).
+FREE_PARAMETERS = 5.0
 # Prices of joints in those of a parameter: what is seldom drawn costs, or smooth chains of arcs
 # follow anything (DRA-01).
 JOINTS = _kernels.JointPrices(
@@ -27,6 +31,8 @@ JOINTS = _kernels.JointPrices(
     free_corner=1.0,
     arc_free_corner=1.5,
 )
+# Points on either side of a node that the second search tries, and of the first cut.
+NEAR, FREED = 3, 40
 # A piece is at least so long: in lengths that do not count, in steps (DRA-01).
 SHORTEST_BLUNTED, SHORTEST_STEPS = 2.2, 2.5
 # Nodes of free-form runs are looked for at every so many-th part of the outline, and not closer
@@ -36,6 +42,8 @@ FREE_PARTS, FREE_STEP = 160, 4
 # many deviations in the mean and at most; an arc whose sagitta is under this many is a line.
 MEAN_MISFIT, LARGEST_MISFIT, FLAT = 2.2, 5.0, 2.5
 FLAT_CHORD = 15.0
+# Radians that data turn at a corner, between chords of so many points.
+CORNER, CORNER_STEPS = 0.5, 4
 
 
 class Segment(NamedTuple):
@@ -74,15 +82,25 @@ class Segments(NamedTuple):
 def segmented(seen: Observed) -> Segments:
     """The segments of an outline."""
     if not seen.closed:
-        return _merged(_solved(seen, 0, ())[0], seen)
+        return _merged(_solved(seen, 0)[0], seen)
     start = sharpest(seen.points)
-    best, cost = _solved(seen, start, ())
-    # A second cut, at a node far from the first, frees the first one.
+    best, cost = _solved(seen, start)
+    # A second cut, at a node far from the first, frees the first one. Nodes stay where they are but
+    # for some points, about the first one many.
     nodes = [segment.begin for segment in best.found[1:]]
     if nodes:
         n = len(seen.points)
         far = min(nodes, key=lambda at: abs(at - n / 2))
-        again, other = _solved(seen, (start + far) % n, [(at - far) % n for at in nodes])
+        begin = (start + far) % n
+        about = [(at - far) % n for at in nodes]
+        first = (n - far) % n
+        near = np.concatenate(
+            [
+                np.add.outer(about, np.arange(-NEAR, NEAR + 1)).ravel(),
+                first + np.arange(-FREED, FREED + 1),
+            ]
+        )
+        again, other = _solved(seen, begin, about, np.unique(near[(near > 0) & (near < n)]))
         if other <= cost * (1 + 1e-12):
             best = again
     best = _merged(best, seen)
@@ -106,7 +124,7 @@ def _row(
 
 
 def _solved(
-    seen: Observed, start: int, candidates: list[int] | tuple[int, ...]
+    seen: Observed, start: int, candidates: Sequence[int] = (), nodes: IntArray | None = None
 ) -> tuple[Segments, float]:
     """Segments of the row that begins at a point, and what they cost."""
     n = len(seen.points)
@@ -122,11 +140,13 @@ def _solved(
         row.stations / size,
         weights,
         np.array(sorted(candidates), dtype=np.int64),
+        np.empty(0, dtype=np.int64) if nodes is None else nodes.astype(np.int64),
         _kernels.SegmentationSettings(
             deviation=seen.deviation / size,
             skip=seen.skip / size,
             shortest=max(SHORTEST_BLUNTED * seen.skip, SHORTEST_STEPS * seen.step) / size,
             price=PRICE,
+            free_parameters=FREE_PARAMETERS,
             smooth_turn=float(np.tan(SMOOTH)),
             stride=max(FREE_STEP, round(len(order) / FREE_PARTS)),
             joints=JOINTS,
@@ -153,6 +173,41 @@ def _merged(row: Segments, seen: Observed) -> Segments:
         else:
             k += 1
     return row._replace(found=tuple(found))
+
+
+def supported(row: Segments, closed: bool) -> Segments:
+    """The row with elements that nothing but their own fit speaks for as free-form.
+
+    A stretch of any smooth curve is a line or an arc for a while. One was drawn if it meets
+    another element or ends in a corner; an arc between free-form curves is never told.
+    """
+    found = list(row.found)
+    n = len(found)
+    for k, segment in enumerate(row.found):
+        about = [(k - 1) % n, (k + 1) % n] if closed else [k - 1, k + 1]
+        beside = [row.found[m] for m in about if 0 <= m < n and m != k]
+        if segment.kind == FREE or any(other.kind != FREE for other in beside):
+            continue
+        corners = [_is_corner(row, at, closed) for at in (segment.begin, segment.end)]
+        if segment.kind == ARC or not all(corners):
+            found[k] = segment._replace(kind=FREE)
+    row = row._replace(found=tuple(found))
+    whole = next((k for k, s in enumerate(found) if s.kind != FREE), 0)
+    return row.turned(whole) if closed else row
+
+
+def _is_corner(row: Segments, at: int, closed: bool) -> bool:
+    """Whether the data turn sharply at a point, or end there."""
+    points, n = row.points, len(row.points)
+    if not closed and at in (0, n - 1):
+        return True
+    size = n - 1 if closed else n
+    before, after = at - CORNER_STEPS, at + CORNER_STEPS
+    if not closed:
+        before, after = max(before, 0), min(after, n - 1)
+    a = points[at % size] - points[before % size]
+    b = points[after % size] - points[at % size]
+    return abs(float(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b))) > CORNER
 
 
 def _is_flat(points: FloatArray, arc: Segment, sigma: float) -> bool:

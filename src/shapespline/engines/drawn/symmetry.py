@@ -40,7 +40,7 @@ def symmetries(
     kinds = [segment.kind for segment in found]
     reach = max(MISSED_PART * model.extent, MISSED_DEVIATIONS * model.seen.deviation)
     points = nodes_of(model)
-    rotated = False
+    base = n  # segments that are no images of others
     if "rotation" in allowed:
         for step in range(1, n // 2 + 1):
             if n % step or kinds != kinds[step:] + kinds[:step]:
@@ -53,7 +53,7 @@ def symmetries(
                 continue
             images = [(k, k + step) for k in range(n - step)]
             if _kept(model, images, middle, angle, fits_badly):
-                rotated = True
+                base = step
                 yield "rotation", order, off
                 break
     if "mirror" not in allowed:
@@ -68,13 +68,13 @@ def symmetries(
         axis, off = _axis(points, mirrored)
         if off > reach:
             continue
-        images = [(k, image[k]) for k in range(n) if image[k] >= k]
+        images = [(k, image[k]) for k in range(base) if image[k] >= k or base < n]
         if _kept(model, images, axis, None, fits_badly):
             yield "mirror", 2, off
             count += 1
         else:
             failed += 1
-        if count == 2 or failed == MOST_FAILURES or (count and rotated):
+        if count == 2 or failed == MOST_FAILURES or (count and base < n):
             return
 
 
@@ -82,9 +82,7 @@ def nodes_of(model: Model) -> FloatArray:
     """Where each segment meets the next, shape (n, 2)."""
     found, n = model.row.found, len(model.row.found)
     points = model.row.points
-    return np.array(
-        [meeting(model, k, (k + 1) % n, points[found[k].end]) for k in range(n)]
-    )
+    return np.array([meeting(model, k, (k + 1) % n, points[found[k].end]) for k in range(n)])
 
 
 def _kept(
