@@ -89,16 +89,16 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
     if request.style.form == "spline":
         yield OneSpline()
         return
-    if request.style.character == "drawn":
-        yield DrawnPieces(ask)
-        if shortlist.kept:
-            return
     if request.style.form == "arcs":
         yield LinesAndArcs(ask)
         return
     if request.pieces_only:
         yield from plan_pieces(problem, shortlist)
         return
+    if request.style.character == "drawn":
+        yield DrawnPieces(ask)
+        if shortlist.kept:
+            return
     if request.is_plain and problem.looks_smooth:
         yield OneSpline()
         if shortlist.follows(shortlist.best):

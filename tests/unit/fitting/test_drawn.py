@@ -78,6 +78,16 @@ def test_what_is_organic_is_as_with_the_fewest_points():
     assert drawn == fewest
 
 
+def test_lines_and_arcs_for_machines_are_those_that_were_drawn():
+    options = {"closed": True, "tolerance": 0.2, "form": "arcs"}
+    drawn, fewest = (
+        checked(ss.fit_curve(rounded_box(), character=word, **options), 0.2)
+        for word in ("drawn", "fewest")
+    )
+    assert sorted(piece.kind for piece in drawn.pieces) == 4 * ["arc"] + 4 * ["line"]
+    assert len(drawn.pieces) < len(fewest.pieces)
+
+
 def test_a_tolerance_below_the_noise_falls_back():
     shaken = rounded_box() + np.random.default_rng(3).normal(0, 0.3, (len(rounded_box()), 2))
     assert checked(ss.fit_curve(shaken, closed=True, tolerance=0.2, character="drawn"), 0.2)
