@@ -176,10 +176,10 @@ class Settings:
             raise InvalidInputError(
                 "character='drawn' finds corners itself: leave corners='auto' as it is"
             )
-        if self._has("end_tangents", "through", "symmetric", "weights"):
+        if self._has("end_tangents", "through", "symmetric", "weights") or self.ends == "fixed":
             raise InvalidInputError(
-                "character='drawn' keeps what was drawn: leave end_tangents, through, symmetric"
-                " and weights out"
+                "character='drawn' keeps what was drawn: leave end_tangents, through, symmetric,"
+                " weights and ends='fixed' out"
             )
 
     @property

@@ -106,6 +106,8 @@ def test_settings_survive_a_dictionary_and_bad_ones_are_refused():
         ({"character": "drawn", "form": "spline"}, "does not act where one spline"),
         ({"character": "drawn", "corners": "free"}, "finds corners itself"),
         ({"character": "drawn", "symmetric": True}, "keeps what was drawn"),
+        ({"character": "drawn", "ends": "fixed"}, "keeps what was drawn"),
+        ({"character": "drawn", "degree": 2}, "degree must be 3 or more"),
         ({"regularities": None}, "regularities act with character='drawn' only"),
         ({"character": "drawn", "regularities": "round"}, "some of tangent, rotation"),
         ({"character": "drawn", "regularities": 3}, "some of tangent, rotation"),
