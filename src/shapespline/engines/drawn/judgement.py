@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.engines.drawn.ends import data_length, length_between, nodes_of, off_by
-from shapespline.engines.drawn.joints import meeting, turn_at
-from shapespline.engines.drawn.segments import CORNER
+from shapespline.engines.drawn.joints import turn_at
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
@@ -16,9 +15,11 @@ if TYPE_CHECKING:
 
 # An element whose points are off by more deviations in the mean, or at most, is none (DRA-06).
 MEAN, LARGEST = 2.0, 6.0
-# Of an outline that was drawn lines and arcs make up this part, and keep so many regularities (of
-# pictures corners count as well, tangency half and without free-form runs) for each (DRA-08).
+# Of an outline that was drawn lines and arcs make up this part, and keep so many regularities for
+# each, tangency counted half, and not beside free-form runs (DRA-08).
 LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH = 0.2, 0.65, 0.5
+# Between its nodes an element has at least this part of the length of its data.
+LEAST_LENGTH = 0.3
 # Before elements that their points contradict are left out so small a part of it is enough.
 HOPELESS = 0.7
 # A node is no farther from its data than so many steps and deviations: lines that are nearly
@@ -54,6 +55,8 @@ def misfitting(model: Model, tolerance: float) -> list[int]:
     for k in model.at:
         between = length_between(model, k, nodes[k - 1], nodes[k])
         far = abs(between - data_length(model, k)) / (3 * reach)
+        if between < LEAST_LENGTH * data_length(model, k):
+            far += 1.0
         if far > 1.0:
             bad.append((far, k))
     return [max(bad)[1]] if bad else []
@@ -77,15 +80,4 @@ def repeated(model: Model, found: list[Regularity]) -> float:
             said += n * (1.0 - 1.0 / one.order)
         else:
             said += 1.0 if one.name != "tangent" else SAID_BY_TOUCH * (n == len(model.row.found))
-    if model.seen.pixel:
-        said += sum(_turns(model, k) for k in model.at)
     return said / n
-
-
-def _turns(model: Model, k: int) -> bool:
-    """Whether an element meets the next one in a corner."""
-    m = (k + 1) % len(model.row.found)
-    if m not in model.at or m == k:
-        return False
-    node = meeting(model, k, m, model.row.points[model.row.found[k].end])
-    return turn_at(model, k, m, node) > CORNER

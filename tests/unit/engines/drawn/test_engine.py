@@ -153,3 +153,17 @@ def test_equations_are_met_and_the_rest_is_least_squares():
     _, space = model.null_space()
     # In the null space nothing is left to gain: the last step was below 1e-11 of the extent.
     assert np.abs(space.T @ gradient).max() < 1e-8 * np.abs(matrix).max()
+
+
+def test_small_and_odd_outlines_are_no_error():
+    random = np.random.default_rng(1)
+    for trial in range(30):
+        angle = np.linspace(0, random.uniform(4, 6.2), random.integers(12, 40))
+        points = 4 * np.column_stack([np.cos(angle), np.sin(angle)])
+        tip = random.uniform(-8, 8, (1, 2))
+        shaken = np.concatenate([points, tip]) + random.normal(0, 0.01, (len(points) + 1, 2))
+        contour = Contour(shaken, closed=trial % 2 == 0)
+        found = as_drawn(contour, [None, 0.02][trial % 3 == 0], tolerance=0.3)
+        for part in () if found is None else found.parts:
+            if not isinstance(part, FreeRun):
+                assert np.isfinite([part.begin, part.end]).all()
