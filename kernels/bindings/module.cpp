@@ -10,6 +10,7 @@ void bind_analysis(nb::module_ &m);
 void bind_least_squares(nb::module_ &m);
 void bind_pieces(nb::module_ &m);
 void bind_spline(nb::module_ &m);
+void bind_drawn(nb::module_ &m);
 
 NB_MODULE(_kernels, m) {
     // An interpreter that ends while a traceback or a worker still holds an object is no leak; a
@@ -22,4 +23,5 @@ NB_MODULE(_kernels, m) {
     bind_least_squares(m);
     bind_pieces(m);
     bind_spline(m);
+    bind_drawn(m);
 }

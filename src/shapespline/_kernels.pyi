@@ -272,3 +272,44 @@ def count_crossings(vertices: FloatArray) -> int: ...  # (k, 2), an open polylin
 def crossing_pairs(
     vertices: FloatArray, starts: IntArray, at_vertices: bool
 ) -> list[tuple[int, int]]: ...
+
+class JointPrices:
+    def __init__(
+        self,
+        *,
+        line_line_smooth: float,  # in prices of a parameter
+        line_arc_smooth: float,
+        arc_arc_smooth: float,
+        arc_arc_corner: float,
+        line_free_smooth: float,
+        arc_free_smooth: float,
+        free_corner: float,
+        arc_free_corner: float,
+    ) -> None: ...
+
+class SegmentationSettings:
+    def __init__(
+        self,
+        *,
+        deviation: float,
+        skip: float,
+        shortest: float,
+        price: float,  # nats per parameter
+        free_parameters: float,  # of a free-form curve
+        smooth_turn: float,  # tangent
+        stride: int,  # points
+        joints: JointPrices,
+    ) -> None: ...
+
+def drawn_pieces(
+    points: FloatArray,  # (n, 2) within [-1, 1]
+    stations: FloatArray,  # (n,)
+    weights: FloatArray,  # (n,)
+    candidates: IntArray,
+    nodes: IntArray,  # empty: all points
+    settings: SegmentationSettings,
+) -> tuple[list[tuple[int, int, int]], float]: ...  # begin, end, kind of each; the cost
+def taubin_circle(
+    points: FloatArray,  # (n, 2) within [-1, 1]
+    weights: FloatArray,  # (n,)
+) -> tuple[float, float, float, float]: ...  # centre, radius (0: a line), sum of squared distances

@@ -14,6 +14,8 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 # How a curve within a tolerance is made, and how long it is searched for.
 Form: TypeAlias = Literal["pieces", "spline", "arcs"]
 Effort: TypeAlias = Literal["fast", "balanced", "smallest"]
+# Lines, arcs and corners as they were drawn first, or the fewest points whatever was drawn.
+Character: TypeAlias = Literal["drawn", "fewest"]
 # Of an open curve, as a caller says it: its ends are free, or the first and last point exactly.
 Ends: TypeAlias = Literal["free", "fixed"]
 # Which corners a curve has, where they are not named by their indices.
@@ -37,6 +39,7 @@ Knots: TypeAlias = Literal[
 __all__ = [
     "ArrayLike",
     "BoolArray",
+    "Character",
     "CornerChoice",
     "Effort",
     "Ends",

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 PAGES = ROOT / "docs" / "decisions"
 PREFIXES = [
     "ANA",
+    "DRA",
     "FIT",
     "FMT",
     "GEO",

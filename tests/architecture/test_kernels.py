@@ -23,6 +23,7 @@ MAY_INCLUDE = {
     "curve": ("base",),
     "distance": ("base", "curve"),
     "analysis": GROUND,
+    "drawn": GROUND,
     "least_squares": GROUND,
     "pieces": GROUND,
     "spline": GROUND,

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 PACKAGE = ROOT / "src" / "shapespline"
 
 GROUND = {"errors", "typing", "units", "validation", "monitor", "_kernels", "_version"}
-ENGINES = {"engines.pieces", "engines.spline", "engines.least_squares"}
+ENGINES = {"engines.drawn", "engines.pieces", "engines.spline", "engines.least_squares"}
 # A room -> the rooms that it may import. A room is imported by its own name, never past it.
 MAY_IMPORT = {
     "values": GROUND,
@@ -24,6 +24,7 @@ MAY_IMPORT = {
     "tracing": GROUND | {"values", "geometry", "analysis"},
     "streaming": GROUND | {"values", "geometry", "analysis"},
     "formats": GROUND | {"values", "geometry", "analysis"},
+    "engines.drawn": GROUND | {"values", "geometry", "analysis"},
     "engines.pieces": GROUND | {"values", "geometry", "analysis"},
     "engines.spline": GROUND | {"values", "geometry", "analysis"},
     "engines.least_squares": GROUND | {"values", "geometry", "analysis", "streaming", "solvers"},

@@ -42,6 +42,8 @@ OPTIONS = {
     "through": [60],
     "symmetric": True,
     "effort": "fast",
+    "character": "drawn",
+    "regularities": None,
     "weights": WEIGHTS,
     "sigma": 0.05 / np.sqrt(WEIGHTS),
     "loss": "tukey",
@@ -86,6 +88,17 @@ EXPECTED = {
         ],
         REFUSED,
     ),
+    # What least squares make has no lines and arcs; noise between those is smoothed with the rest.
+    **dict.fromkeys(
+        [
+            *(("character", goal) for goal in ("of size", "estimate, weighted")),
+            *(("character", goal) for goal in DATA if goal.endswith("one spline")),
+            *(("regularities", goal) for goal in DATA),  # beside character="drawn" only
+        ],
+        REFUSED,
+    ),
+    # An arch of half an ellipse has none either: test_drawn.py shows where it acts.
+    **{("character", goal): HOLDS for goal in ("within", "estimate, clean", "estimate, noisy")},
     # Nothing is left to search for: least squares of a size that a criterion chose.
     ("effort", "estimate, noisy, one spline"): HOLDS,
 }
@@ -152,6 +165,7 @@ ACT = {
         distance_to_curve(points[60:61], fit.curve, 1e-3)[0] < 1e-12
     ),
     "effort": lambda fit, points, goal: not same(fit, plain(goal)),
+    "character": lambda fit, points, goal: fit.method == "drawn",
     "weights": heavy_points_are_nearer,
     "sigma": heavy_points_are_nearer,
     "loss": lambda fit, points, goal: not same(fit, plain(goal)),

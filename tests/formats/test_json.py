@@ -16,7 +16,7 @@ from shapespline.errors import DroppedPointsWarning, FormatError
 from shapespline.formats import json as subject
 from shapespline.geometry import exact_fit
 from shapespline.monitor import Iteration
-from shapespline.values import Arc, Piece
+from shapespline.values import Arc, Piece, Regularity
 from shapespline.values.contour import Contour
 from shapespline.values.drawing import Drawing
 from shapespline.values.fit import Fit, Status
@@ -165,9 +165,9 @@ def test_round_trip_of_any_contour(tmp_path_factory, points, closed):
 def test_every_field_of_fit_is_written(document):
     """A field that is added to Fit must be added to the format, and the version raised.
 
-    Curves on the way to a fit are no part of it.
+    Curves on the way to a fit are no part of it; regularities are not there if there are none.
     """
-    fields = {field.name for field in dataclasses.fields(Fit)} - {"snapshots"}
+    fields = {field.name for field in dataclasses.fields(Fit)} - {"snapshots", "regularities"}
     assert set(document["fits"][0]) == fields
     assert set(document["fits"][0]["history"]) == set(Iteration._fields)
 
@@ -328,3 +328,18 @@ def test_arcs_come_back_and_raise_the_version(round_trip, read_text):
         assert good in text
         with pytest.raises(FormatError, match=message):
             read_text(text.replace(good, bad))
+
+
+def test_regularities_come_back_and_name_pieces_that_are_there(round_trip, read_text):
+    lines = [
+        Piece("line", 1, np.array([0.0, 0, 1, 1]), np.array([a, b], dtype=float))
+        for a, b in (((0, 0), (4, 0)), ((4, 0), (4, 3)))
+    ]
+    kept = (Regularity("axis-parallel", (0,), 0.25), Regularity("rotation", (0, 1), 0.5, 2))
+    drawing = Drawing([dataclasses.replace(exact_fit(lines), regularities=kept)])
+    assert round_trip(drawing) == drawing
+    assert round_trip(drawing).fits[0].regularities == kept
+    text = subject.encode(drawing).decode()
+    assert '"version": 2' in text
+    with pytest.raises(FormatError, match=r"regularities\[1\].pieces"):
+        read_text(text.replace('"pieces": [0, 1]', '"pieces": [0, 2]'))

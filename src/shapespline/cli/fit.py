@@ -211,6 +211,21 @@ def fit(
             rich_help_panel=FIT,
         ),
     ] = False,
+    character: Annotated[
+        Literal["fewest", "drawn"],
+        typer.Option(
+            help="The fewest points, or lines, arcs and corners as they were drawn first.",
+            rich_help_panel=FIT,
+        ),
+    ] = "fewest",
+    regularities: Annotated[
+        str,
+        typer.Option(
+            help="With --character drawn, what may be kept exactly: auto, none, or names such as"
+            " axis-parallel,tangent.",
+            rich_help_panel=FIT,
+        ),
+    ] = "auto",
     outliers: Annotated[
         bool,
         typer.Option(
@@ -296,6 +311,8 @@ def fit(
         "effort": effort,
         "ends": ends,
         "symmetric": symmetric,
+        "character": character,
+        "regularities": _regularities(regularities),
         "outliers": outliers,
         "sigma": length_of(sigma),
         "loss": loss,
@@ -362,6 +379,13 @@ def length_of(sigma: str | None) -> float | None:
         return None if sigma is None else float(sigma)
     except ValueError:
         return None
+
+
+def _regularities(said: str) -> str | tuple[str, ...] | None:
+    """Names between commas, auto, or none."""
+    if said in ("auto", "none"):
+        return said if said == "auto" else None
+    return tuple(name.strip() for name in said.split(","))
 
 
 def _typed(context: typer.Context, setting: str) -> bool:

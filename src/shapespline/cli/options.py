@@ -262,6 +262,14 @@ class Writing:
             rich_help_panel=OUTPUT,
         ),
     ] = None
+    band: Annotated[
+        float | None,
+        typer.Option(
+            help="Draw the band that holds the true curve at each place with this probability, such"
+            " as 0.95 (SVG, with --sigma).",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None
     release: Annotated[
         str | None,
         typer.Option(
@@ -282,14 +290,6 @@ class Writing:
         float | None,
         typer.Option(
             help="G-code: height above Z0 between outlines (default: 5 mm).", rich_help_panel=OUTPUT
-        ),
-    ] = None
-    band: Annotated[
-        float | None,
-        typer.Option(
-            help="Draw the band that holds the true curve at each place with this probability, such"
-            " as 0.95 (SVG, with --sigma).",
-            rich_help_panel=OUTPUT,
         ),
     ] = None
     chord: Annotated[

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
 # A curve that stores more than this part of the number of points follows rough data; it tells
 # nothing of what was drawn, and lines may be the smaller (PIE-05).
 ROUGH_PART = 0.3
+# The rank of a shape as it was drawn.
+DRAWN = -1
 
 
 class Shortlist:
@@ -20,12 +22,13 @@ class Shortlist:
 
     1. both distances keep the tolerance;
     2. tangents that were asked for are met;
-    3. the curve is fair (even knots, no near-cusp, no crossing that the data have not), where it
+    3. it is as it was drawn, where that was asked for;
+    4. the curve is fair (even knots, no near-cusp, no crossing that the data have not), where it
        stands in for corners of the data;
-    4. no corners where the data have none, if one smooth spline follows them;
-    5. the fewest stored points; of curves that miss the tolerance the nearest;
-    6. the simpler structure: one spline, a symmetric one, pieces, lines, lines through all points;
-    7. the one that was found first.
+    5. no corners where the data have none, if one smooth spline follows them;
+    6. the fewest stored points; of curves that miss the tolerance the nearest;
+    7. the simpler structure: one spline, a symmetric one, pieces, lines, lines through all points;
+    8. the one that was found first.
     """
 
     def __init__(self, problem: Problem) -> None:
@@ -65,12 +68,13 @@ class Shortlist:
         most = ROUGH_PART * len(self._problem.contour)
         return verified.kept and verified.fit.n_stored_points <= most
 
-    def _preference(self, verified: Verified) -> tuple[bool, bool, bool, bool, float, int]:
+    def _preference(self, verified: Verified) -> tuple[bool, bool, bool, bool, bool, float, int]:
         problem, candidate = self._problem, verified.candidate
         instead = bool(candidate.fairness) and problem.has_corners
         return (
             not verified.kept,
             verified.tangent_error > 0,
+            candidate.rank != DRAWN,
             instead and not verified.fair,
             self._makes_corners(verified),
             verified.fit.n_stored_points if verified.kept else verified.fit.hausdorff_distance,

@@ -10,8 +10,19 @@ from shapespline.fitting.solve import solve
 from shapespline.monitor import Monitor
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.monitor import Callback
-    from shapespline.typing import ArrayLike, CornerChoice, Effort, Ends, Form, Knots, Loss
+    from shapespline.typing import (
+        ArrayLike,
+        Character,
+        CornerChoice,
+        Effort,
+        Ends,
+        Form,
+        Knots,
+        Loss,
+    )
     from shapespline.values import Contour, Fit
 
 
@@ -28,6 +39,8 @@ def fit_curve(
     end_tangents: tuple[ArrayLike | None, ArrayLike | None] | None = None,
     through: ArrayLike | None = None,
     symmetric: bool = False,
+    character: Character = "fewest",
+    regularities: str | Sequence[str] | None = "auto",
     effort: Effort = "balanced",
     weights: ArrayLike | None = None,
     sigma: ArrayLike | None = None,
@@ -81,6 +94,15 @@ def fit_curve(
         Whether a mirror symmetry that a closed outline has within a part of the tolerance is kept
         exactly: one half is fitted and reflected, which may take some points more. Without, that
         is done where it takes none, unless the search is to be fast.
+    character : {"fewest", "drawn"}
+        The fewest points whatever was drawn; or the shape as it was drawn: lines, circular arcs and
+        whole circles where the data show them, corners where they meet, and the tolerance spent on
+        the rest. What cannot be told that way, or would not keep the tolerance, is as with
+        "fewest". In pieces, with corners "auto".
+    regularities : "auto", None or sequence of str
+        With "drawn", what lines and arcs may keep exactly where the data allow it: "tangent",
+        "rotation", "mirror", "axis-parallel", "parallel", "perpendicular", "concentric",
+        "equal-radius", "collinear"; all of these, none, or some. ``fit.regularities`` lists them.
     effort : {"fast", "balanced", "smallest"}
         How long to search.
     weights : array_like, shape (n,), optional
@@ -149,6 +171,8 @@ def fit_curve(
         end_tangents=end_tangents,
         through=through,
         symmetric=symmetric,
+        character=character,
+        regularities=regularities,
         effort=effort,
         weights=weights,
         sigma=sigma,

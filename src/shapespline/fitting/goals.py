@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from shapespline.engines.drawn import NAMES
 from shapespline.fitting.settings import DEFAULT_METHOD
 
 if TYPE_CHECKING:
-    from shapespline.typing import CornerChoice, Form, IntArray, Knots
+    from shapespline.typing import Character, CornerChoice, Form, IntArray, Knots
 
 
 @dataclass(frozen=True)
@@ -39,11 +40,17 @@ Goal = Within | OfSize | Estimate
 
 @dataclass(frozen=True, eq=False)
 class Style:
-    """How the curve is made: degree, form and corners (a word, or indices of the contour)."""
+    """How the curve is made: degree, form and corners (a word, or indices of the contour).
+
+    ``character`` says whether structure comes before few points, ``regularities`` which may be
+    taken then.
+    """
 
     degree: int = 3
     form: Form = "pieces"
     corners: CornerChoice | IntArray | None = "auto"
+    character: Character = "fewest"
+    regularities: tuple[str, ...] = NAMES
 
     @property
     def free(self) -> bool:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from shapespline.engines.pieces import chords_found, drawn_straight, in_facets
 from shapespline.fitting.arcs import LinesAndArcs
 from shapespline.fitting.choose import ROUGH_PART
+from shapespline.fitting.drawn import DrawnPieces
 from shapespline.fitting.estimate import (
     Estimation,
     InBand,
@@ -72,6 +73,10 @@ def _plan_estimate(
         yield WeightedSpline()
         return
     estimation = Estimation(problem, monitor)
+    if problem.request.style.character == "drawn":
+        yield DrawnPieces(ask, estimation.shown)
+        if len(shortlist):
+            return
     if not estimation.shown.clean:
         if problem.request.style.form == "pieces":
             yield ObservedPieces(estimation)
@@ -94,6 +99,10 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
     if request.pieces_only:
         yield from plan_pieces(problem, shortlist)
         return
+    if request.style.character == "drawn":
+        yield DrawnPieces(ask)
+        if shortlist.kept:
+            return
     if request.is_plain and problem.looks_smooth:
         yield OneSpline(ROUGH_PART * len(problem.contour))
         if shortlist.follows(shortlist.best):

@@ -5,12 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from shapespline.analysis import filled, has_straight_runs
+from shapespline.analysis import NormalizedContour, filled, has_straight_runs
 from shapespline.engines.pieces import PiecesProblem
 from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
-    from shapespline.analysis import NormalizedContour
     from shapespline.fitting.request import Request
     from shapespline.values import Contour
 
@@ -62,6 +61,13 @@ class Problem:
     def thinned(self) -> PiecesProblem:
         """The same without the points that a search does not need."""
         return self.pieces.thinned()
+
+    @cached_property
+    def ordered(self) -> NormalizedContour:
+        """The contour in canonical order and unit, whatever the goal."""
+        if self.request.tolerance is not None:
+            return self.normalized
+        return NormalizedContour.of(self.contour)
 
     @property
     def normalized(self) -> NormalizedContour:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 import numpy as np
 
 from shapespline.analysis import find_outliers, looks_shuffled
+from shapespline.engines.drawn import NAMES
 from shapespline.engines.least_squares import check_freedom, checked_measurement, given_weights
 from shapespline.engines.pieces import Constraints
 from shapespline.errors import (
@@ -114,7 +115,7 @@ class Request:
         request = cls(
             contour=contour,
             goal=_goal(settings, contour),
-            style=Style(settings.degree, settings.form, _corners(settings, contour)),
+            style=_style(settings, contour),
             constraints=_constraints(settings, contour),
             symmetric=settings.symmetric,
             weights=None if settings.weights is None else given_weights(settings.weights, contour),
@@ -231,7 +232,7 @@ class Request:
         return Request(
             contour=contour,
             goal=Within(within),
-            style=replace(self.style, corners=corners),
+            style=replace(self.style, corners=corners, character="fewest"),
             constraints=Constraints(True, nodes, (directions[0], directions[1])),
             effort=self.effort,
             is_part=True,
@@ -277,6 +278,7 @@ class Request:
         goal, style, kept = dict(said["goal"]), dict(said["style"]), said["constraints"]
         if isinstance(style["corners"], list):
             style["corners"] = np.array(style["corners"], dtype=np.int64)
+        style["regularities"] = tuple(style["regularities"])
         begin, end = (None if t is None else np.array(t) for t in kept["tangents"])
         return cls(
             contour=Contour.silently(said["points"], said["closed"], accuracy=said["accuracy"]),
@@ -310,6 +312,14 @@ def _goal(settings: Settings, contour: Contour) -> Goal:
     if settings.n_control_points is not None:
         return OfSize(settings.n_control_points, settings.knots, settings.method)
     return Estimate(settings.method)
+
+
+def _style(settings: Settings, contour: Contour) -> Style:
+    names = settings.regularities
+    names = NAMES if names == "auto" else () if names is None else tuple(names)
+    return Style(
+        settings.degree, settings.form, _corners(settings, contour), settings.character, names
+    )
 
 
 def _corners(settings: Settings, contour: Contour) -> CornerChoice | IntArray | None:

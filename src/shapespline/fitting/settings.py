@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, TypeGuard, get_args
 
 import numpy as np
 
+from shapespline.engines.drawn import NAMES
 from shapespline.engines.least_squares import named_solver
 from shapespline.errors import InvalidInputError
 from shapespline.monitor import checked_time_limit
-from shapespline.typing import CornerChoice, Effort, Ends, Form, Knots, Loss
+from shapespline.typing import Character, CornerChoice, Effort, Ends, Form, Knots, Loss
 from shapespline.validation import (
     checked_choice,
     checked_flag,
@@ -59,6 +60,8 @@ class Settings:
     end_tangents: tuple[ArrayLike | None, ArrayLike | None] | None = None
     through: ArrayLike | None = None
     symmetric: bool = False
+    character: Character = "fewest"
+    regularities: str | Sequence[str] | None = "auto"
     effort: Effort = "balanced"
     weights: ArrayLike | None = None
     sigma: ArrayLike | None = None
@@ -71,11 +74,18 @@ class Settings:
     def __post_init__(self) -> None:
         set_ = object.__setattr__
         set_(self, "degree", check_degree(self.degree))
-        for name, words in (("form", Form), ("ends", Ends), ("effort", Effort), ("knots", Knots)):
+        for name, words in (
+            ("form", Form),
+            ("ends", Ends),
+            ("effort", Effort),
+            ("knots", Knots),
+            ("character", Character),
+        ):
             checked_choice(name, getattr(self, name), get_args(words))
         for name in ("symmetric", "outliers"):
             set_(self, name, checked_flag(name, getattr(self, name)))
         set_(self, "time_limit", checked_time_limit(self.time_limit))
+        set_(self, "regularities", _regularities(self.regularities))
         named_solver(self.method)
         if self.tolerance is not None:
             _checked_tolerance(self.tolerance)
@@ -139,6 +149,7 @@ class Settings:
                 raise InvalidInputError("end_tangents and through act with form='pieces' only")
             if self.symmetric:
                 raise InvalidInputError("symmetric acts with form='pieces' only")
+        self._check_drawn()
         held = self.end_tangents is not None and self.end_tangents != (None, None)
         if held and isinstance(self.corners, str) and self.corners == "free":
             raise InvalidInputError(
@@ -156,6 +167,32 @@ class Settings:
             )
         if self.symmetric:
             raise InvalidInputError("symmetric acts with form='pieces' only")
+
+    def _check_drawn(self) -> None:
+        """Raise if the shape cannot be given as it was drawn beside the other options."""
+        if self.character == "fewest":
+            if self.regularities != "auto":
+                raise InvalidInputError("regularities act with character='drawn' only: say it")
+            return
+        if self.degree < 3:
+            raise InvalidInputError(
+                f"degree must be 3 or more for character='drawn', got {self.degree}: arcs stand in"
+                " the curve as cubics"
+            )
+        if self._one_spline:
+            raise InvalidInputError(
+                "character='drawn' does not act where one spline is made: leave form='spline',"
+                " n_control_points and weights out"
+            )
+        if self.corners is None or not isinstance(self.corners, str) or self.corners == "free":
+            raise InvalidInputError(
+                "character='drawn' finds corners itself: leave corners='auto' as it is"
+            )
+        if self._has("end_tangents", "through", "symmetric", "weights") or self.ends == "fixed":
+            raise InvalidInputError(
+                "character='drawn' keeps what was drawn: leave end_tangents, through, symmetric,"
+                " weights and ends='fixed' out"
+            )
 
     @property
     def _one_spline(self) -> bool:
@@ -254,6 +291,22 @@ def _directions(
         x, y = (given / length).tolist()
         found.append((x, y))
     return found[0], found[1]
+
+
+def _regularities(value: object) -> str | tuple[str, ...] | None:
+    """Names of regularities, or the word or None that stands for all or none."""
+    if value is None or (isinstance(value, str) and value == "auto"):
+        return value
+    names = (value,) if isinstance(value, str) else tuple(value) if _is_list(value) else None
+    if names is None or any(name not in NAMES for name in names):
+        raise InvalidInputError(
+            f"regularities must be 'auto', None or some of {', '.join(NAMES)}, got {value!r}"
+        )
+    return names
+
+
+def _is_list(value: object) -> TypeGuard[Sequence[str]]:
+    return isinstance(value, Sequence) and all(isinstance(item, str) for item in value)
 
 
 def plain(value: Any) -> Any:

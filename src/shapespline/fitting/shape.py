@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from shapespline.monitor import Callback
-    from shapespline.typing import ArrayLike, CornerChoice, Effort, Ends, Form, Loss
+    from shapespline.typing import ArrayLike, Character, CornerChoice, Effort, Ends, Form, Loss
     from shapespline.values import Fit, Piece
 
 # Of the tolerance: points of two contours that are no farther apart are one point of a boundary.
@@ -44,6 +44,8 @@ def fit_shape(
     time_limit: float | None = None,
     ends: Ends = "free",
     symmetric: bool = False,
+    character: Character = "fewest",
+    regularities: str | Sequence[str] | None = "auto",
     outliers: bool = False,
     sigma: ArrayLike | None = None,
     loss: Loss | None = None,
@@ -61,7 +63,8 @@ def fit_shape(
         Data units, or a part of the box diagonal of the whole shape, such as ``"0.1%"``.
     n_control_points : int, optional
         Number of control points of each curve; chosen for each contour when neither is given.
-    degree, corners, form, effort, method, callback, time_limit, ends, symmetric, outliers
+    degree, corners, form, effort, method, callback, time_limit, ends, symmetric, character,
+    regularities, outliers
         See `fit_curve`; the limit is that of each contour.
     sigma, loss
         See `fit_curve`; of several contours a length, the error of all points.
@@ -102,6 +105,8 @@ def fit_shape(
         form=form,
         ends=ends,
         symmetric=symmetric,
+        character=character,
+        regularities=regularities,
         effort=effort,
         outliers=outliers,
         sigma=sigma,

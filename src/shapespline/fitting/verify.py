@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from shapespline.geometry import Distances
     from shapespline.monitor import Iteration, Monitor
     from shapespline.solvers import Result
-    from shapespline.values import BSplineCurve, Contour, Piece, Uncertainty
+    from shapespline.values import BSplineCurve, Contour, Piece, Regularity, Uncertainty
 
 
 # Roundings of the coordinates of two control points, in parts of the larger.
@@ -54,6 +54,8 @@ class Candidate:
         How the iterations ended and their records, where the curve is theirs.
     uncertainty : Uncertainty or None
         Of one spline that fits points with known errors.
+    regularities : tuple of Regularity
+        What the pieces keep exactly.
     """
 
     method: str
@@ -65,6 +67,7 @@ class Candidate:
     run: Result | None = None
     history: tuple[Iteration, ...] = ()
     uncertainty: Uncertainty | None = None
+    regularities: tuple[Regularity, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,6 +120,8 @@ def verify(candidate: Candidate, request: Request) -> Verified:
     )
     if candidate.uncertainty is not None:
         fit = replace(fit, uncertainty=candidate.uncertainty)
+    if candidate.regularities:
+        fit = replace(fit, regularities=candidate.regularities)
     error = _tangent_error(fit.pieces, request.constraints)
     if error:
         turn = np.degrees(error)

@@ -3,7 +3,7 @@
 It is one object::
 
     format   "shapespline"
-    version  1, or 2 if there are arcs
+    version  1, or 2 if there are arcs or regularities
     unit     of all lengths, such as "mm", or null
     frame    {x, y, width, height} or null
     parents  for each fit the index of the one directly around it, -1 for none
@@ -22,6 +22,7 @@ It is one object::
                      of an arc also arc {centre, radius, start_angle, sweep}, whose twin the
                      others are
         outliers     indices of the points left out
+        regularities {name, pieces: indices of sections, off, order}; not there if there are none
         uncertainty  null, or covariance of the control points, chi_squared, degrees_of_freedom
 
 Numbers are written with the shortest digits that read back to the same double.
@@ -36,7 +37,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from shapespline.errors import FormatError, InvalidInputError
-from shapespline.formats.json_pieces import checked_pieces, piece_document
+from shapespline.formats.json_pieces import (
+    checked_pieces,
+    checked_regularities,
+    piece_document,
+    regularities_document,
+)
 from shapespline.formats.json_uncertainty import checked_uncertainty, uncertainty_document
 from shapespline.formats.json_values import (
     checked_boolean,
@@ -68,7 +74,7 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
 
 T = TypeVar("T")
-FORMAT, VERSION, WITH_ARCS = "shapespline", 1, 2
+FORMAT, VERSION, AS_DRAWN = "shapespline", 1, 2
 LINE_LENGTH = 100
 DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
@@ -113,7 +119,7 @@ def encode(drawing: Drawing) -> bytes:
     frame = drawing.frame
     document: dict[str, Any] = {
         "format": FORMAT,
-        "version": WITH_ARCS if _has_arcs(drawing) else VERSION,
+        "version": AS_DRAWN if _is_drawn(drawing) else VERSION,
         "unit": drawing.unit,
         "frame": None if frame is None else _numbers_of(frame._asdict(), "frame"),
         "parents": list(drawing.parents),
@@ -187,11 +193,13 @@ def _fit_document(fit: Fit) -> dict[str, Any]:
         "sections": [piece_document(piece) for piece in fit.sections],
         "outliers": np.asarray(fit.outliers).tolist(),
         "uncertainty": uncertainty_document(fit.uncertainty),
+        **regularities_document(fit.regularities),
     }
 
 
-def _has_arcs(drawing: Drawing) -> bool:
-    return any(piece.arc for fit in drawing for piece in fit.sections)
+def _is_drawn(drawing: Drawing) -> bool:
+    """Whether there are arcs or regularities."""
+    return any(fit.regularities or any(piece.arc for piece in fit.sections) for fit in drawing)
 
 
 def _finite(array: FloatArray, name: str) -> list[float]:
@@ -262,9 +270,9 @@ def _drawing(document: object) -> Drawing:
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise FormatError('no shapespline drawing: it does not begin with "format": "shapespline"')
     version = checked_integer(document.get("version"), "version")
-    if version not in (VERSION, WITH_ARCS):
+    if version not in (VERSION, AS_DRAWN):
         raise FormatError(
-            f"version {version} is unknown, this program reads versions {VERSION} and {WITH_ARCS}"
+            f"version {version} is unknown, this program reads versions {VERSION} and {AS_DRAWN}"
         )
     known = DRAWING_FIELDS + tuple(name for name in NOT_ALWAYS if name in document)
     fields = checked_object(document, "the drawing", known)
@@ -290,7 +298,8 @@ def _drawing(document: object) -> Drawing:
 
 
 def _fit(value: object, where: str) -> Fit:
-    fields = checked_object(value, where, FIT_FIELDS)
+    known = isinstance(value, dict) and "regularities" in value
+    fields = checked_object(value, where, FIT_FIELDS + (("regularities",) if known else ()))
     contour = _built(_contour, fields["contour"], f"{where}.contour")
     parameters = checked_numbers(fields["parameters"], f"{where}.parameters")
     if len(parameters) != contour.n_given:
@@ -302,6 +311,8 @@ def _fit(value: object, where: str) -> Fit:
     n_points = contour.n_given + len(listed)
     outliers = checked_indices(listed, f"{where}.outliers", 0, n_points)
     distances = {name: checked_number(fields[name], f"{where}.{name}") for name in DISTANCES}
+    sections = checked_pieces(fields["sections"], f"{where}.sections")
+    listed = fields.get("regularities", [])
     return Fit(
         spline=_built(_spline, fields["spline"], f"{where}.spline"),
         contour=contour,
@@ -310,7 +321,8 @@ def _fit(value: object, where: str) -> Fit:
         rms_distance=distances["rms_distance"],
         hausdorff_distance=distances["hausdorff_distance"],
         tolerance=distances["tolerance"],
-        sections=checked_pieces(fields["sections"], f"{where}.sections"),
+        sections=sections,
+        regularities=checked_regularities(listed, f"{where}.regularities", len(sections)),
         status=_status(fields["status"], f"{where}.status"),
         history=_history(fields["history"], f"{where}.history"),
         method=checked_string(fields["method"], f"{where}.method"),

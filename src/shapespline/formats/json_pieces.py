@@ -1,4 +1,4 @@
-"""Pieces of a fit as JSON; `shapespline.formats.json` says how they look."""
+"""Pieces of a fit, and what they keep, as JSON; `shapespline.formats.json` says how they look."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Any
 
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats.json_values import (
+    checked_indices,
     checked_integer,
     checked_list,
     checked_number,
@@ -14,7 +15,7 @@ from shapespline.formats.json_values import (
     checked_points,
     checked_string,
 )
-from shapespline.values import Arc, Piece
+from shapespline.values import Arc, Piece, Regularity
 
 KINDS = ("line", "arc", "bezier", "spline")
 PIECE_FIELDS = ("kind", "degree", "knots", "control_points")
@@ -36,6 +37,30 @@ def piece_document(piece: Piece) -> dict[str, Any]:
         values = {name: getattr(piece.arc, name) for name in ARC_FIELDS}
         document["arc"] = values | {"centre": list(piece.arc.centre)}
     return document
+
+
+def regularities_document(found: tuple[Regularity, ...]) -> dict[str, Any]:
+    """The field of a fit; none if there are no regularities."""
+    listed = [one._asdict() | {"pieces": list(one.pieces)} for one in found]
+    return {"regularities": listed} if listed else {}
+
+
+def checked_regularities(value: object, where: str, n_pieces: int) -> tuple[Regularity, ...]:
+    """Regularities of a list of such fields."""
+    found = []
+    for index, item in enumerate(checked_list(value, where)):
+        place = f"{where}[{index}]"
+        fields = checked_object(item, place, Regularity._fields)
+        pieces = checked_indices(fields["pieces"], f"{place}.pieces", 0, n_pieces)
+        found.append(
+            Regularity(
+                checked_string(fields["name"], f"{place}.name"),
+                tuple(pieces),
+                checked_number(fields["off"], f"{place}.off"),
+                checked_integer(fields["order"], f"{place}.order"),
+            )
+        )
+    return tuple(found)
 
 
 def checked_pieces(value: object, where: str) -> tuple[Piece, ...]:

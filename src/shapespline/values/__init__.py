@@ -13,6 +13,7 @@ from shapespline.values.knots import (
     periodic_knots,
 )
 from shapespline.values.piece import CORNER_TURN, EXACT_TURN, SAME_FACTOR, SMOOTH_TURN, Piece
+from shapespline.values.regularity import Regularity
 from shapespline.values.shape import Shape, checked_parents, nesting_depth
 from shapespline.values.snapshot import Snapshot
 from shapespline.values.uncertainty import Band, Uncertainty
@@ -31,6 +32,7 @@ __all__ = [
     "Drawing",
     "Fit",
     "Piece",
+    "Regularity",
     "Shape",
     "Snapshot",
     "Status",

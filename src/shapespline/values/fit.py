@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from shapespline.typing import ArrayLike, FloatArray, IntArray
     from shapespline.values.arc import Arc
     from shapespline.values.contour import Contour
+    from shapespline.values.regularity import Regularity
     from shapespline.values.snapshot import Snapshot
     from shapespline.values.uncertainty import Band, Uncertainty
 from shapespline.values.curve import BSplineCurve
@@ -96,6 +97,8 @@ class Fit(ByValue, Shown, Exchanged, FitMethods):
         Indices, among the points that were given, of those left out on request.
     snapshots : tuple of Snapshot
         Curves on the way, where `optimize` was asked to keep them.
+    regularities : tuple of Regularity
+        What pieces keep exactly, where the curve is as it was drawn.
     uncertainty : Uncertainty or None
         Where the errors of the points were given.
     """
@@ -113,6 +116,7 @@ class Fit(ByValue, Shown, Exchanged, FitMethods):
     sections: tuple[Piece, ...] = field(default=(), repr=False)
     outliers: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64), repr=False)
     snapshots: tuple[Snapshot, ...] = field(default=(), repr=False)
+    regularities: tuple[Regularity, ...] = field(default=(), repr=False)
     uncertainty: Uncertainty | None = field(default=None, repr=False)
 
     # How the iterations went, with their seconds, is no part of the result.

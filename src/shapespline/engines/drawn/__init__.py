@@ -1,0 +1,7 @@
+"""The drawn engine: lines, arcs and free-form runs, with what a drawing repeats."""
+
+from shapespline.engines.drawn.engine import as_drawn
+from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
+from shapespline.engines.drawn.regularities import NAMES
+
+__all__ = ["NAMES", "Drawn", "DrawnArc", "DrawnLine", "FreeRun", "as_drawn"]

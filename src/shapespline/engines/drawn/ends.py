@@ -1,0 +1,125 @@
+"""Where elements end: in nodes, on their last data, or cut off within a tolerance."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.engines.drawn.joints import direction_at, meeting, onto, turn_at, unit_of
+from shapespline.engines.drawn.segments import LINE
+
+if TYPE_CHECKING:
+    from shapespline.engines.drawn.model import Model
+    from shapespline.typing import BoolArray, FloatArray
+
+# A free-form run goes on smoothly from an element if its data do, radians.
+SMOOTH_END = 0.2
+# A corner that is farther from its data than the first part of the tolerance is cut off, so that
+# the second part is left; data so many points about it are looked at (DRA-07).
+NEAR_PART, CUT_PART, NEIGHBOURS, CUTS = 0.97, 0.93, 8, 12
+# Data that lie on an element are no farther from it than so many deviations.
+ON = 3.0
+
+
+def nodes_of(model: Model) -> dict[int, FloatArray]:
+    """Where each segment ends, if it or the next one is an element; -1 for an open beginning."""
+    found, n = model.row.found, len(model.row.found)
+    points, nodes = model.row.points, {}
+    for k in range(n):
+        m, at = (k + 1) % n, points[found[k].end]
+        if m == 0 and not model.seen.closed:
+            m = -1
+        if k in model.at and m in model.at and k != m:
+            nodes[k] = meeting(model, k, m, at)
+        elif k in model.at:
+            nodes[k] = onto(model, k, points[last_on(model, k)])
+        elif m in model.at:
+            nodes[k] = onto(model, m, points[first_on(model, m)])
+    if not model.seen.closed and 0 in model.at:
+        nodes[-1] = onto(model, 0, points[0])
+    elif model.seen.closed and n - 1 in nodes:
+        nodes[-1] = nodes[n - 1]
+    return nodes
+
+
+def last_on(model: Model, k: int) -> int:
+    """The last point of a segment that lies on its element."""
+    i, j, _ = model.row.found[k]
+    first = max(i + (j - i) // 2, j - NEIGHBOURS)
+    return first + int(np.flatnonzero(_lies_on(model, k, first, j))[-1])
+
+
+def first_on(model: Model, k: int) -> int:
+    """The first point of a segment that lies on its element."""
+    i, j, _ = model.row.found[k]
+    last = min(i + (j - i) // 2, i + NEIGHBOURS)
+    return i + int(np.flatnonzero(_lies_on(model, k, i, last))[0])
+
+
+def _lies_on(model: Model, k: int, first: int, last: int) -> BoolArray:
+    """Which of some points are no farther from an element than noise; at least the nearest."""
+    off = np.abs(off_by(model, k, model.row.points[first : last + 1]))
+    return off <= max(ON * model.seen.largest_deviation, float(off.min()))
+
+
+def off_by(model: Model, k: int, points: FloatArray) -> FloatArray:
+    """Signed distances of points from the whole line or circle of an element."""
+    o = model.at[k]
+    if model.kind(k) == LINE:
+        tx, ty = unit_of(float(model.x[o]))
+        return tx * points[:, 1] - ty * points[:, 0] - model.x[o + 1]
+    return np.hypot(*(points - model.x[o : o + 2]).T) - model.x[o + 2]
+
+
+def cut_off(
+    model: Model, k: int, m: int, node: FloatArray, tolerance: float
+) -> tuple[FloatArray, FloatArray]:
+    """Where element k ends and m begins: in their node, or beside it where data are blunted."""
+    far = _away(model, k, node)
+    turn = turn_at(model, k, m, node)
+    if far <= NEAR_PART * tolerance or turn < SMOOTH_END:
+        return node, node
+    back = (far - CUT_PART * tolerance) / float(np.sin(0.5 * turn))
+    for _ in range(CUTS):
+        before = onto(model, k, node - back * direction_at(model, k, node))
+        after = onto(model, m, node + back * direction_at(model, m, node))
+        far = max(_away(model, k, p) for p in (before, after, 0.5 * (before + after)))
+        if far <= NEAR_PART * tolerance:
+            break
+        back *= 1.25
+    return before, after
+
+
+def _away(model: Model, k: int, node: FloatArray) -> float:
+    """Distance of the node behind segment k from the data polyline about it."""
+    points, at, n = model.row.points, model.row.found[k].end, len(model.row.points)
+    around = np.arange(at - NEIGHBOURS, at + NEIGHBOURS + 1)
+    inner = (around >= 0) & (around < n)
+    around = around % (n - 1) if model.seen.closed else around[inner]
+    a, step = points[around[:-1]] - node, points[around[1:]] - points[around[:-1]]
+    length_sq = np.maximum((step**2).sum(axis=1), 1e-300)
+    share = np.clip(-(a * step).sum(axis=1) / length_sq, 0.0, 1.0)
+    return float(np.hypot(*(a + share[:, None] * step).T).min())
+
+
+def length_between(model: Model, k: int, begin: FloatArray, end: FloatArray) -> float:
+    """Signed length of an element from node to node."""
+    o = model.at[k]
+    if model.kind(k) == LINE:
+        return float(unit_of(float(model.x[o])) @ (end - begin))
+    return abs(sweep_of(model, k, begin, end)[1]) * float(model.x[o + 2])
+
+
+def sweep_of(model: Model, k: int, begin: FloatArray, end: FloatArray) -> tuple[float, float]:
+    """First angle of an arc and the angle that it turns by."""
+    centre = model.x[model.at[k] : model.at[k] + 2]
+    first, last = (float(np.arctan2(*(p - centre)[::-1])) for p in (begin, end))
+    full = 2 * np.pi
+    return first, (last - first) % full if model.ways[k] > 0 else -((first - last) % full)
+
+
+def data_length(model: Model, k: int) -> float:
+    """Length of the data of a segment."""
+    s, (i, j, _) = model.row.stations, model.row.found[k]
+    return float(s[j] - s[i])

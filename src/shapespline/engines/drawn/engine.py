@@ -1,0 +1,196 @@
+"""An outline as it was drawn: lines, arcs and whole circles, free-form runs between them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.engines.drawn.ends import (
+    SMOOTH_END,
+    cut_off,
+    first_on,
+    last_on,
+    nodes_of,
+    sweep_of,
+)
+from shapespline.engines.drawn.joints import direction_at
+from shapespline.engines.drawn.judgement import (
+    HOPELESS,
+    LARGEST,
+    LEAST_SAID,
+    is_enough,
+    misfitting,
+    repeated,
+)
+from shapespline.engines.drawn.model import Model, circle_of
+from shapespline.engines.drawn.observed import Observed
+from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
+from shapespline.engines.drawn.regularities import NAMES, Search
+from shapespline.engines.drawn.segments import FREE, LINE, Segments, segmented, supported
+from shapespline.values import Arc
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from shapespline.engines.drawn.parts import Part
+    from shapespline.typing import FloatArray
+    from shapespline.values import Contour, Regularity
+
+# Fewer points tell no structure.
+FEWEST_POINTS = 12
+# A whole circle is within so many deviations in the mean (DRA-06).
+ROUND = 2.0
+# Data within so many steps of a node tell its direction.
+DIRECTION_STEPS = 4
+
+
+def as_drawn(
+    contour: Contour,
+    accuracy: float | None = None,
+    regularities: Collection[str] = NAMES,
+    tolerance: float = np.inf,
+) -> Drawn | None:
+    """Lines, arcs and free-form runs of a contour; None if it tells no lines and arcs.
+
+    Parameters
+    ----------
+    contour : Contour
+    accuracy : float, optional
+        Of points that a picture told, data units; None for measured points.
+    regularities : collection of str
+        Those that may be taken.
+    tolerance : float
+        Elements farther from their data are none.
+
+    Examples
+    --------
+    >>> from shapespline.values import Contour
+    >>> t = np.linspace(0, 1, 30, endpoint=False)
+    >>> sides = [np.column_stack([t, 0 * t]), np.column_stack([1 + 0 * t, t])]
+    >>> square = Contour(np.concatenate([*sides, 1 - sides[0], 1 - sides[1]]), closed=True)
+    >>> len(as_drawn(square).parts)
+    4
+    """
+    if len(contour) < FEWEST_POINTS:
+        return None
+    seen = Observed.of(contour, accuracy)
+    if contour.closed:
+        whole = _whole_circle(seen)
+        if whole is not None:
+            return Drawn((whole,), ())
+    row = supported(segmented(seen), contour.closed)
+    for _ in range(len(row.found)):
+        model = Model.of(seen, row)
+        if not is_enough(model):
+            return None
+        bad = misfitting(model, tolerance)  # each alone first, which is soon done
+        if not bad:
+            found = Search(model, NAMES).run()
+            said = repeated(model, found)
+            bad = misfitting(model, tolerance)
+            if said < LEAST_SAID * (1.0 if not bad else HOPELESS):
+                return None
+        if not bad:
+            if set(regularities) != set(NAMES):
+                model = Model.of(seen, row)
+                found = Search(model, regularities).run()
+            return _drawn(model, found, tolerance)
+        row = supported(_without(row, bad), contour.closed)
+    return None
+
+
+def _whole_circle(seen: Observed) -> DrawnArc | None:
+    """All points as one circle."""
+    points = seen.points
+    weights = np.ones(len(points))
+    cx, cy, r = circle_of(points, weights)
+    off = np.hypot(points[:, 0] - cx, points[:, 1] - cy) - r
+    if float(np.sqrt((off**2).mean())) > ROUND * seen.largest_deviation:
+        return None
+    if float(np.abs(off).max()) > LARGEST * seen.largest_deviation:
+        return None
+    x, y = points.T
+    area = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+    arc = Arc((cx, cy), r, 0.0, 2 * np.pi if area > 0 else -2 * np.pi)
+    begin = np.array([cx + r, cy])
+    return DrawnArc(arc, begin, begin)
+
+
+def _without(row: Segments, bad: list[int]) -> Segments:
+    """The row with some segments free-form."""
+    found = tuple(s._replace(kind=FREE) if k in bad else s for k, s in enumerate(row.found))
+    return row._replace(found=found)
+
+
+def _drawn(model: Model, found: list[Regularity], tolerance: float) -> Drawn:
+    """Elements between their nodes, free-form runs between them."""
+    segments, nodes = model.row.found, nodes_of(model)
+    n = len(segments)
+    begins = {k: nodes[k - 1] for k in model.at}
+    ends = {k: nodes[k] for k in model.at}
+    for k in model.at:
+        m = (k + 1) % n if model.seen.closed else k + 1
+        if m in model.at and m != k:
+            ends[k], begins[m] = cut_off(model, k, m, nodes[k], tolerance)
+    parts: list[Part] = []
+    place: dict[int, int] = {}
+    k = 0
+    while k < n:
+        if k in model.at:
+            place[k] = len(parts)
+            parts.append(_element(model, k, begins[k], ends[k]))
+            m = (k + 1) % n if model.seen.closed else k + 1
+            if m in model.at and (begins[m] != ends[k]).any():
+                parts.append(DrawnLine(ends[k], begins[m]))
+            k += 1
+            continue
+        last = k
+        while last + 1 < n and last + 1 not in model.at:
+            last += 1
+        parts.append(_free_run(model, k, last, nodes))
+        k = last + 1
+    kept = tuple(one._replace(pieces=tuple(place[s] for s in one.pieces)) for one in found)
+    return Drawn(tuple(parts), kept)
+
+
+def _element(model: Model, k: int, begin: FloatArray, end: FloatArray) -> DrawnLine | DrawnArc:
+    if model.kind(k) == LINE:
+        return DrawnLine(begin, end)
+    o = model.at[k]
+    centre, radius = model.x[o : o + 2], float(model.x[o + 2])
+    first, sweep = sweep_of(model, k, begin, end)
+    return DrawnArc(Arc((float(centre[0]), float(centre[1])), radius, first, sweep), begin, end)
+
+
+def _free_run(model: Model, k: int, last: int, nodes: dict[int, FloatArray]) -> FreeRun:
+    """The data of segments k to last, from node to node."""
+    row, n = model.row, len(model.row.found)
+    closed = model.seen.closed
+    before, after = ((k - 1) % n, (last + 1) % n) if closed else (k - 1, last + 1)
+    i, j = row.found[k].begin, row.found[last].end
+    points = row.points[i : j + 1]
+    if before in model.at:
+        left = row.points[last_on(model, before) : row.found[before].end]
+        points = np.concatenate([left, points])
+    if after in model.at:
+        right = row.points[row.found[after].begin + 1 : first_on(model, after) + 1]
+        points = np.concatenate([points, right])
+    points = points.copy()
+    tangents: list[FloatArray | None] = [None, None]
+    reach = min(DIRECTION_STEPS, len(points) - 1)
+    if before in model.at:
+        points[0] = nodes[(k - 1) if k > 0 else -1]
+        tangents[0] = _smooth(direction_at(model, before, points[0]), points[reach] - points[0])
+    if after in model.at:
+        points[-1] = nodes[last]
+        tangents[1] = _smooth(
+            direction_at(model, after, points[-1]), points[-1] - points[-1 - reach]
+        )
+    return FreeRun(points, (tangents[0], tangents[1]))
+
+
+def _smooth(tangent: FloatArray, chord: FloatArray) -> FloatArray | None:
+    """The tangent, if data go on along it."""
+    turn = np.arctan2(tangent[0] * chord[1] - tangent[1] * chord[0], tangent @ chord)
+    return tangent if abs(float(turn)) < SMOOTH_END else None

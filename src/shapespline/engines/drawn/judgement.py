@@ -1,0 +1,83 @@
+"""Whether elements are what was drawn: the last test of each, and what speaks for all."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.engines.drawn.ends import data_length, length_between, nodes_of, off_by
+from shapespline.engines.drawn.joints import turn_at
+
+if TYPE_CHECKING:
+    from shapespline.engines.drawn.model import Model
+    from shapespline.values import Regularity
+
+# An element whose points are off by more deviations in the mean, or at most, is none (DRA-06).
+MEAN, LARGEST = 2.0, 6.0
+# Of an outline that was drawn lines and arcs make up this part, and keep so many regularities for
+# each, tangency counted half, and not beside free-form runs (DRA-08).
+LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH = 0.2, 0.65, 0.5
+# Between its nodes an element has at least this part of the length of its data.
+LEAST_LENGTH = 0.3
+# Before elements that their points contradict are left out so small a part of it is enough.
+HOPELESS = 0.7
+# A node is no farther from its data than so many steps and deviations: lines that are nearly
+# parallel meet anywhere (DRA-06).
+NODE_STEPS, NODE_DEVIATIONS = 3.0, 20.0
+
+
+def misfitting(model: Model, tolerance: float) -> list[int]:
+    """Elements that their own data contradict, the worst alone where others may be its victims."""
+    bad: list[tuple[float, int]] = []
+    sigma = model.seen.largest_deviation
+    for k, misfit in model.misfits().items():
+        points, _ = model.counted(k)
+        off = np.abs(off_by(model, k, points))
+        mean = misfit.mean * model.seen.deviation / sigma
+        far = max(mean / MEAN, float(off.max()) / min(LARGEST * sigma, tolerance))
+        if far > 1.0:
+            bad.append((far, k))
+    if bad:
+        return [max(bad)[1]]
+    nodes = nodes_of(model)
+    reach = NODE_STEPS * model.seen.step + NODE_DEVIATIONS * sigma
+    n = len(model.row.found)
+    for k, node in nodes.items():
+        m = (k + 1) % n
+        if k not in model.at or m not in model.at:
+            continue
+        away = float(np.hypot(*(node - model.row.points[model.row.found[k].end])))
+        # Blunted corners lie farther from their points the sharper they are.
+        far = away / reach * float(np.cos(0.5 * turn_at(model, k, m, node))) ** 0.5
+        if far > 1.0:
+            bad.append((far, min(k, m, key=lambda one: data_length(model, one))))
+    for k in model.at:
+        between = length_between(model, k, nodes[k - 1], nodes[k])
+        far = abs(between - data_length(model, k)) / (3 * reach)
+        if between < LEAST_LENGTH * data_length(model, k):
+            far += 1.0
+        if far > 1.0:
+            bad.append((far, k))
+    return [max(bad)[1]] if bad else []
+
+
+def is_enough(model: Model) -> bool:
+    """Whether lines and arcs make up enough of an outline to be what was drawn."""
+    length = sum(data_length(model, k) for k in model.at)
+    return bool(model.at) and length >= LEAST_SHARE * float(model.row.stations[-1])
+
+
+def repeated(model: Model, found: list[Regularity]) -> float:
+    """How much a drawing repeats, for each element.
+
+    Any smooth outline has straight stretches, and noisy ones make corners of their own; what people
+    draw is level, parallel, equal or symmetric.
+    """
+    n, said = len(model.at), 0.0
+    for one in found:
+        if one.name in ("rotation", "mirror"):
+            said += n * (1.0 - 1.0 / one.order)
+        else:
+            said += 1.0 if one.name != "tangent" else SAID_BY_TOUCH * (n == len(model.row.found))
+    return said / n

@@ -1,0 +1,293 @@
+"""Lines and circles of an outline in one vector of unknowns, estimated under equations.
+
+Gauss and Newton's method on distances across, in the null space of the linearised equations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+from shapespline.engines.drawn.segments import ARC, FREE, LINE
+
+if TYPE_CHECKING:
+    from shapespline.engines.drawn.constraints import Constraint
+    from shapespline.engines.drawn.observed import Observed
+    from shapespline.engines.drawn.segments import Segments
+    from shapespline.typing import FloatArray, IntArray
+
+# Rounds, and the step that ends them in parts of the extent.
+ROUNDS, LEAST_STEP = 8, 1e-11
+# An equation follows from others if it leaves less than this part of its entries.
+IMPLIED = 1e-8
+# No step is longer than this part of the extent.
+LONGEST_STEP = 0.3
+# Short pieces count points nearer to their nodes, by this part.
+SHORT, NEARER = 8.0, 0.5
+
+
+class Misfit(NamedTuple):
+    """Of one element: chi squared, and the sum of weights."""
+
+    chi_sq: float
+    weight: float
+
+    @property
+    def mean(self) -> float:
+        """Root mean square in deviations."""
+        return float(np.sqrt(self.chi_sq / max(self.weight, 1e-9)))
+
+
+class _Group(NamedTuple):
+    """Elements of one kind: where their unknowns are, their points end to end, whose each is."""
+
+    is_line: bool
+    segments: list[int]
+    at: IntArray
+    points: FloatArray
+    weights: FloatArray
+    begins: IntArray
+    owner: IntArray
+
+
+@dataclass(eq=False)
+class Model:
+    """Elements of an outline: lines (direction, offset) and circles (centre, radius).
+
+    ``at[k]`` is where the unknowns of segment k begin in ``x``; ``ways[k]`` is 1 for arcs that turn
+    left, else -1.
+    """
+
+    seen: Observed
+    row: Segments
+    x: FloatArray = field(default_factory=lambda: np.empty(0))
+    at: dict[int, int] = field(default_factory=dict)
+    ways: dict[int, float] = field(default_factory=dict)
+    constraints: list[Constraint] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, seen: Observed, row: Segments) -> Model:
+        """Each element fitted alone."""
+        model = cls(seen, row)
+        x: list[float] = []
+        for k, (i, j, kind) in enumerate(row.found):
+            if kind == FREE:
+                continue
+            model.at[k] = len(x)
+            points, weights = model.counted(k)
+            if kind == LINE:
+                x += _line_of(points, weights)
+            else:
+                circle = circle_of(points, weights)
+                x += circle
+                model.ways[k] = _way(row.points[i : j + 1], np.array(circle[:2]))
+        model.x = np.array(x)
+        return model
+
+    def kind(self, k: int) -> int:
+        """What segment k is."""
+        return self.row.found[k].kind
+
+    @property
+    def n_own(self) -> int:
+        """How many unknowns belong to elements."""
+        return max((o + 2 + (self.kind(k) == ARC) for k, o in self.at.items()), default=0)
+
+    @property
+    def extent(self) -> float:
+        """Of the outline."""
+        return float(np.ptp(self.row.points, axis=0).max())
+
+    def span(self, k: int) -> tuple[int, int]:
+        """First and last point that count for segment k."""
+        i, j, kind = self.row.found[k]
+        s, skip = self.row.stations, self.seen.skip
+        if s[j] - s[i] < SHORT * skip:
+            skip *= NEARER
+        least = 3 if kind == LINE else 5
+        a = int(np.searchsorted(s, s[i] + skip))
+        b = int(np.searchsorted(s, s[j] - skip, side="right")) - 1
+        if b - a + 1 < least:
+            a, b = min(i + 1, j), max(j - 1, i)
+        return (i, j) if b - a + 1 < least else (a, b)
+
+    def counted(self, k: int) -> tuple[FloatArray, FloatArray]:
+        """Points and weights of segment k."""
+        a, b = self.span(k)
+        return self.row.points[a : b + 1], self.row.weights[a : b + 1]
+
+    def normal(self, x: FloatArray) -> tuple[FloatArray, FloatArray, dict[int, Misfit]]:
+        """Normal matrix, gradient, misfit of each element."""
+        n = len(x)
+        matrix, gradient, misfits = np.zeros((n, n)), np.zeros(n), {}
+        for group in self._groups:
+            at, (px, py), w = group.at, group.points.T, group.weights
+            own = x[at][:, group.owner]
+            if group.is_line:
+                c, s = np.cos(own[0]), np.sin(own[0])
+                off = c * py - s * px - own[1]
+                slopes = np.stack([-c * px - s * py, -np.ones(len(off))])
+            else:
+                ox, oy = px - own[0], py - own[1]
+                far = np.maximum(np.hypot(ox, oy), 1e-300)
+                off = far - own[2]
+                slopes = np.stack([-ox / far, -oy / far, -np.ones(len(off))])
+            weighted = slopes * (w / self.seen.deviation**2)
+            products = np.add.reduceat(weighted[:, None] * slopes[None], group.begins, axis=2)
+            matrix[at[:, None], at[None]] = products
+            gradient[at] = np.add.reduceat(weighted * off, group.begins, axis=1)
+            squares = np.add.reduceat(w * off**2, group.begins) / self.seen.deviation**2
+            sums = np.add.reduceat(w, group.begins)
+            for k, square, total in zip(
+                group.segments, squares.tolist(), sums.tolist(), strict=True
+            ):
+                misfits[k] = Misfit(square, total)
+        return matrix, gradient, misfits
+
+    @cached_property
+    def _groups(self) -> list[_Group]:
+        """The points that count, of all lines and of all circles."""
+        found = []
+        for kind in (LINE, ARC):
+            segments = [k for k in self.at if self.kind(k) == kind]
+            if not segments:
+                continue
+            data = [self.counted(k) for k in segments]
+            counts = [len(weights) for _, weights in data]
+            size = 2 if kind == LINE else 3
+            at = np.array([[self.at[k] + i for k in segments] for i in range(size)])
+            found.append(
+                _Group(
+                    kind == LINE,
+                    segments,
+                    at,
+                    np.concatenate([points for points, _ in data]),
+                    np.concatenate([weights for _, weights in data]),
+                    np.concatenate([[0], np.cumsum(counts)[:-1]]),
+                    np.repeat(np.arange(len(segments)), counts),
+                )
+            )
+        return found
+
+    def misfits(self) -> dict[int, Misfit]:
+        """Misfit of each element."""
+        return self.normal(self.x)[2]
+
+    def equations(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """All constraints: values and Jacobian."""
+        values, rows = [], []
+        for one in self.constraints:
+            h, own = one.value(x)
+            row = np.zeros((len(h), len(x)))
+            row[:, list(one.index)] = own
+            values.append(h)
+            rows.append(row)
+        if not rows:
+            return np.empty(0), np.empty((0, len(x)))
+        return np.concatenate(values), np.concatenate(rows)
+
+    def solve(self, rounds: int = ROUNDS) -> None:
+        """The best estimate under the constraints."""
+        if not len(self.x):
+            return
+        for _ in range(rounds):
+            matrix, gradient, _misfits = self.normal(self.x)
+            onto, space = self.null_space()
+            # Unknowns that no data tell, of a motion that is determined, stay.
+            reduced = space.T @ matrix @ space
+            reduced[np.diag_indices_from(reduced)] += 1e-12 * max(float(np.trace(reduced)), 1e-300)
+            step = onto + space @ np.linalg.solve(reduced, -space.T @ (gradient + matrix @ onto))
+            largest = float(np.abs(step).max())
+            self.x = self.x + step * min(1.0, LONGEST_STEP * self.extent / max(largest, 1e-300))
+            if largest < LEAST_STEP * self.extent:
+                break
+
+    def null_space(self) -> tuple[FloatArray, FloatArray]:
+        """The steps that meet the constraints, linearised: one of them, and a basis of all.
+
+        Equations take one unknown each out of those that are left, that with the largest entry
+        (Gauss). Directions count in arcs of the extent, as the other unknowns are lengths.
+        """
+        n = len(self.x)
+        unit = np.ones(n)
+        unit[[o for k, o in self.at.items() if self.kind(k) == LINE]] = 1.0 / self.extent
+        space, onto, left = np.diag(unit), np.zeros(n), np.ones(n, dtype=bool)
+        h, jacobian = self.equations(self.x)
+        for value, row in zip(h, jacobian, strict=True):
+            told = row @ space
+            pivot = int(np.argmax(np.abs(told)))
+            if abs(told[pivot]) <= IMPLIED * float(np.abs(row * unit).max()):
+                continue
+            column = space[:, pivot] / told[pivot]
+            onto -= column * (value + row @ onto)
+            space -= column[:, None] * told
+            space[:, pivot], left[pivot] = 0.0, False
+        return onto, space[:, left]
+
+    def covariance(self) -> FloatArray:
+        """Of the estimate under all constraints, systematic errors added."""
+        matrix, _, misfits = self.normal(self.x)
+        n, own_end = len(self.x), self.n_own
+        found = np.zeros((n, n))
+        found[range(own_end, n), range(own_end, n)] = (10 * self.extent) ** 2
+        floor = self.seen.floor
+        for k, o in self.at.items():
+            size = 2 if self.kind(k) == LINE else 3
+            block = matrix[o : o + size, o : o + size]
+            inverse = np.linalg.inv(block + 1e-13 * float(np.trace(block)) * np.eye(size))
+            chi_sq, weight = misfits[k]
+            inverse *= max(1.0, chi_sq / max(weight - size, 1.0))
+            i, j, _kind = self.row.found[k]
+            length = max(float(self.row.stations[j] - self.row.stations[i]), 1e-300)
+            extra = [2 * floor / length, floor] if size == 2 else [floor] * 3
+            found[o : o + size, o : o + size] = inverse + np.diag(np.square(extra))
+        if not self.constraints:
+            return found
+        _, space = self.null_space()
+        weights = np.zeros((n, n))
+        for k, o in self.at.items():
+            own = slice(o, o + (2 if self.kind(k) == LINE else 3))
+            weights[own, own] = np.linalg.inv(found[own, own])
+        weights[range(own_end, n), range(own_end, n)] = (10 * self.extent) ** -2
+        return space @ np.linalg.inv(space.T @ weights @ space) @ space.T
+
+
+def _line_of(points: FloatArray, weights: FloatArray) -> list[float]:
+    middle = np.average(points, axis=0, weights=weights)
+    off = points - middle
+    along = np.linalg.eigh((off * weights[:, None]).T @ off)[1][:, 1]
+    if along @ (points[-1] - points[0]) < 0:
+        along = -along
+    return [
+        float(np.arctan2(along[1], along[0])),
+        float(along[0] * middle[1] - along[1] * middle[0]),
+    ]
+
+
+def circle_of(points: FloatArray, weights: FloatArray) -> list[float]:
+    """Centre and radius: Taubin's circle, then least squares across."""
+    middle = points.mean(axis=0)
+    size = max(float(np.abs(points - middle).max()), 1e-300)
+    unit = np.ascontiguousarray((points - middle) / size)
+    cx, cy, r, _ = _kernels.taubin_circle(unit, np.ascontiguousarray(weights))
+    x = np.array([cx, cy, r or 1e4])
+    for _ in range(5):
+        out = unit - x[:2]
+        far = np.maximum(np.hypot(*out.T), 1e-300)
+        jacobian = np.column_stack([-out / far[:, None], -np.ones(len(far))])
+        weighted = jacobian * weights[:, None]
+        step = np.linalg.lstsq(weighted.T @ jacobian, -weighted.T @ (far - x[2]), rcond=1e-14)[0]
+        x = x + step * min(1.0, 0.2 * x[2] / max(float(np.abs(step).max()), 1e-300))
+    return [*(middle + size * x[:2]).tolist(), float(size * x[2])]
+
+
+def _way(points: FloatArray, centre: FloatArray) -> float:
+    out = points - centre
+    turn = np.arctan2(
+        out[:-1, 0] * out[1:, 1] - out[:-1, 1] * out[1:, 0], (out[:-1] * out[1:]).sum(axis=1)
+    )
+    return 1.0 if turn.sum() > 0 else -1.0

@@ -1,0 +1,100 @@
+"""An outline as the drawn engine sees it: what its points weigh and how far they may be off."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import ceil
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.analysis import noise_level
+from shapespline.values import Contour
+
+if TYPE_CHECKING:
+    from shapespline.typing import FloatArray
+
+# Of a picture: points within so many pixels of a node may be blunted, and systematic errors are
+# that part of what its points are accurate to (DRA-02).
+BLUNTED, SYSTEMATIC = 1.0, 0.75
+# A picture's points are better than its accuracy where they scatter less: slow errors are so many
+# times what shows between neighbours, and no picture is better than this part (DRA-02).
+SLOW, BEST = 3.0, 0.3
+# Points of a table are not known better than this part of the extent (DRA-02).
+LAST_DIGIT = 1e-5
+# Dense noisy points are averaged until their steps are longer than their noise; arc length would be
+# the noise's, not the outline's (DRA-03). Of more measured points than these some are looked at.
+MOST_POINTS = 1000
+
+
+@dataclass(frozen=True, eq=False)
+class Observed:
+    """Points of an outline in order, and what is known of their errors.
+
+    Attributes
+    ----------
+    points : ndarray, shape (n, 2)
+    closed : bool
+    deviation : float
+        Standard deviation of a point across the outline.
+    largest_deviation : float
+        What it may be at most, as far as the source knows; elements that miss it are none.
+    floor : float
+        What averaging does not take away: systematic errors of a picture.
+    pixel : float
+        0 for measured points.
+    """
+
+    points: FloatArray
+    closed: bool
+    deviation: float
+    largest_deviation: float
+    floor: float
+    pixel: float
+
+    @classmethod
+    def of(cls, contour: Contour, accuracy: float | None) -> Observed:
+        """A contour; ``accuracy`` is what its picture knows, None for measured points."""
+        points, closed = contour.points, contour.closed
+        step = float(np.median(np.diff(contour.arc_length)))
+        if accuracy:
+            shown = noise_level(Contour.trusted(points, closed))
+            deviation = min(max(SLOW * shown, BEST * accuracy), accuracy) if shown else accuracy
+            floor = SYSTEMATIC * deviation
+            return cls(points, closed, deviation, accuracy, floor, step)
+        extent = float(np.ptp(points, axis=0).max())
+        deviation = max(noise_level(contour), LAST_DIGIT * extent)
+        k = _averaged(points, closed, deviation)
+        every = len(points) // (max(k, 1) * MOST_POINTS)
+        if k == 1 and every > 1:
+            points = points[::every]
+        if k > 1:
+            m = len(points) // k
+            points = points[: m * k].reshape(m, k, 2).mean(axis=1)
+            deviation = max(deviation / k**0.5, LAST_DIGIT * extent)
+        return cls(points, closed, deviation, deviation, 0.0, 0.0)
+
+    @property
+    def skip(self) -> float:
+        """How near to a node points do not count."""
+        return BLUNTED * self.pixel
+
+    @cached_property
+    def step(self) -> float:
+        """Median distance of neighbours."""
+        return float(np.median(np.hypot(*np.diff(self.points, axis=0).T)))
+
+
+def _averaged(points: FloatArray, closed: bool, deviation: float) -> int:
+    """How many neighbours are averaged."""
+    k = 9
+    if len(points) <= 100:
+        return 1
+    wide = np.concatenate([points[-k:], points, points[:k]]) if closed else points
+    sums = np.cumsum(wide, axis=0)
+    soft = (sums[k:] - sums[:-k]) / k
+    step = float(np.median(np.hypot(*(soft[k:] - soft[:-k]).T))) / k
+    if step >= deviation:
+        return 1
+    return ceil((deviation / step) ** (2 / 3))

@@ -1,0 +1,63 @@
+"""What a drawn shape is made of: lines, arcs, free-form runs, and what they keep."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from shapespline.typing import FloatArray
+    from shapespline.values import Arc, Regularity
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnLine:
+    """A straight edge."""
+
+    begin: FloatArray
+    end: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnArc:
+    """Part of a circle, and its ends as its neighbours have them."""
+
+    arc: Arc
+    begin: FloatArray
+    end: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class FreeRun:
+    """Data that neither explains: points with both ends, and tangents there that are known."""
+
+    points: FloatArray
+    tangents: tuple[FloatArray | None, FloatArray | None]
+    closed: bool = False
+
+
+Part = DrawnLine | DrawnArc | FreeRun
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """Parts end to end, and the regularities that they keep, by their places among the parts."""
+
+    parts: tuple[Part, ...]
+    regularities: tuple[Regularity, ...]
+
+    @property
+    def share(self) -> float:
+        """Part of the length that lines and arcs make up."""
+        lengths = [_length_of(part) for part in self.parts]
+        free = (isinstance(part, FreeRun) for part in self.parts)
+        return 1.0 - sum(s for s, one in zip(lengths, free, strict=True) if one) / sum(lengths)
+
+
+def _length_of(part: Part) -> float:
+    if isinstance(part, DrawnArc):
+        return part.arc.length()
+    points = part.points if isinstance(part, FreeRun) else np.stack([part.begin, part.end])
+    return float(np.hypot(*np.diff(points, axis=0).T).sum())

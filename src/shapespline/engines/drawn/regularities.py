@@ -1,0 +1,245 @@
+"""What a drawing repeats: tangency, directions, centres, radii, each only where the data allow it.
+
+Every regularity is an equation that is tested against the covariance of the estimate (Wald's test)
+and, once taken, conditions both (a Kalman step), so later tests use what earlier ones taught. After
+each family all is estimated anew; if an element fits badly the family is given back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import hypot, log, pi, remainder
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.engines.drawn.constraints import CirclesTouch, Difference, LineTouches
+from shapespline.engines.drawn.joints import meeting, turn_at
+from shapespline.engines.drawn.segments import ARC, LINE
+from shapespline.engines.drawn.symmetry import symmetries
+from shapespline.values import Regularity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Iterator
+
+    from shapespline.engines.drawn.constraints import Constraint
+    from shapespline.engines.drawn.model import Misfit, Model
+    from shapespline.typing import FloatArray
+
+NAMES = (
+    "tangent",
+    "rotation",
+    "mirror",
+    "axis-parallel",
+    "parallel",
+    "perpendicular",
+    "concentric",
+    "equal-radius",
+    "collinear",
+)
+# Squared standard errors that an equation may be off by, a tangent joint by more; nats by which it
+# must be a surprise (DRA-04).
+LARGEST, LARGEST_TANGENT, LEAST_SURPRISE = 9.0, 16.0, 1.0
+# Joints that turn by less may be tangent; directions, radians, and radii, parts, that may agree.
+TANGENT_TURN, DIRECTIONS, RADII = 0.35, 0.03, 0.25
+# An element fits badly after a family of regularities if its misfit, in deviations, grows by more
+# than these allow (DRA-04).
+WORSE_PART, WORSE_BY, ANYHOW = 1.5, 0.7, 1.5
+# Equations are met when none is off by more, in parts of the extent.
+MET = 1e-8
+# Variances below this part of the largest are none: the equation follows from others.
+IMPLIED, TINY = 1e-10, 1e-300
+
+
+@dataclass(eq=False)
+class Search:
+    """Tests equations on a model and takes those that hold."""
+
+    model: Model
+    allowed: Collection[str]
+    covariance: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
+    found: list[Regularity] = field(default_factory=list)
+
+    def run(self) -> list[Regularity]:
+        """All families in turn; the model holds the estimate under what was taken."""
+        model = self.model
+        if not len(model.x):
+            return []
+        model.solve()
+        self._family("tangent", self._tangents)
+        if "rotation" in self.allowed or "mirror" in self.allowed:
+            for name, order, off in symmetries(model, self.allowed, fits_badly):
+                self.found.append(Regularity(name, tuple(model.at), off, order))
+        self._family("axis-parallel", self._directions)
+        self._family("concentric", self._centres)
+        self._family("equal-radius", self._radii)
+        self._family("collinear", self._collinear)
+        return self.found
+
+    def _family(self, name: str, tried: Callable[[], Iterator[Regularity]]) -> None:
+        model = self.model
+        if name not in self.allowed and name != "axis-parallel":
+            return
+        kept, before = (model.x.copy(), list(model.constraints)), model.misfits()
+        self.covariance = model.covariance()
+        taken = list(tried())
+        if not taken:
+            return
+        try:
+            model.solve()
+            bad = fits_badly(model, before)
+        except np.linalg.LinAlgError:
+            bad = True
+        if bad:
+            model.x, model.constraints = kept
+        else:
+            self.found += taken
+
+    def takes(self, equation: Constraint, span: float | None, largest: float = LARGEST) -> bool:
+        """Whether an equation holds; then estimate and covariance are conditioned by it.
+
+        ``span`` is the range that its value could have: that it is nothing must be a surprise.
+        """
+        model, index = self.model, list(equation.index)
+        h, own = equation.value(model.x)
+        local = self.covariance[np.ix_(index, index)]
+        values, vectors = np.linalg.eigh(own @ local @ own.T)
+        told = values > IMPLIED * float(np.diag(local).max()) + TINY
+        across = vectors.T @ h
+        if (np.abs(across[~told]) > MET * model.extent).any():
+            return False
+        n = int(told.sum())
+        if n == 0:
+            return True
+        squares = across[told] ** 2 / values[told]
+        statistic = float(squares.sum())
+        if statistic > largest * (1.0 if n == 1 else 0.75 * n):
+            return False
+        if span is not None:
+            surprise = sum(log(span / (2 * pi * v) ** 0.5) for v in values[told].tolist())
+            if surprise - 0.5 * statistic < LEAST_SURPRISE:
+                return False
+        ac = own @ self.covariance[index]
+        half = ac.T @ vectors[:, told] / np.sqrt(values[told])
+        model.x = model.x - half @ (across[told] / np.sqrt(values[told]))
+        model.constraints.append(equation)
+        self.covariance = self.covariance - half @ half.T
+        return True
+
+    def _tangents(self) -> Iterator[Regularity]:
+        model, n = self.model, len(self.model.row.found)
+        for k in range(n if model.seen.closed else n - 1):
+            m = (k + 1) % n
+            if k == m or k not in model.at or m not in model.at:
+                continue
+            equation = tangency(model, k, m)
+            if equation is None:
+                continue
+            near = model.row.points[model.row.found[k].end]
+            turn = turn_at(model, k, m, meeting(model, k, m, near))
+            if turn < TANGENT_TURN and self.takes(equation, None, LARGEST_TANGENT):
+                yield Regularity("tangent", (k, m), float(np.degrees(turn)))
+
+    def _directions(self) -> Iterator[Regularity]:
+        model, quarter = self.model, pi / 2
+        heads: list[int] = []
+        for k in self._best_known(LINE, 0):
+            o = model.at[k]
+            turn = round(model.x[o] / quarter) * quarter
+            off = float(model.x[o] - turn)
+            level = "axis-parallel" in self.allowed and abs(off) < DIRECTIONS
+            if level and self.takes(Difference((o,), (), turn), quarter):
+                heads.insert(0, k)
+                yield Regularity("axis-parallel", (k,), float(np.degrees(off)))
+                continue
+            for head in heads:
+                p = model.at[head]
+                turns = round((model.x[o] - model.x[p]) / quarter)
+                name = "perpendicular" if turns % 2 else "parallel"
+                off = float(model.x[o] - model.x[p] - turns * quarter)
+                if name not in self.allowed or abs(off) >= DIRECTIONS:
+                    continue
+                if self.takes(Difference((o,), (p,), turns * quarter), quarter):
+                    yield Regularity(name, (head, k), float(np.degrees(off)))
+                    break
+            else:
+                heads.append(k)
+
+    def _centres(self) -> Iterator[Regularity]:
+        model = self.model
+        heads: list[int] = []
+        for k in self._best_known(ARC, 2):
+            o = model.at[k]
+            for head in heads:
+                p = model.at[head]
+                off = hypot(*(model.x[o : o + 2] - model.x[p : p + 2]))
+                if off > 0.5 * min(model.x[o + 2], model.x[p + 2]):
+                    continue
+                if self.takes(Difference((o, o + 1), (p, p + 1)), model.extent):
+                    yield Regularity("concentric", (head, k), off)
+                    break
+            else:
+                heads.append(k)
+
+    def _radii(self) -> Iterator[Regularity]:
+        model = self.model
+        heads: list[int] = []
+        for k in self._best_known(ARC, 2):
+            o = model.at[k] + 2
+            for head in heads:
+                p = model.at[head] + 2
+                off = float(model.x[o] - model.x[p])
+                if abs(off) > RADII * model.x[p]:
+                    continue
+                if self.takes(Difference((o,), (p,)), 0.5 * model.extent):
+                    yield Regularity("equal-radius", (head, k), off)
+                    break
+            else:
+                heads.append(k)
+
+    def _collinear(self) -> Iterator[Regularity]:
+        model, lines = self.model, self._best_known(LINE, 0)
+        for i, k in enumerate(lines):
+            for head in lines[:i]:
+                o, p = model.at[k], model.at[head]
+                turn = float(model.x[o] - model.x[p])
+                if abs(remainder(turn, pi)) > MET:
+                    continue
+                sign = 1.0 if np.cos(turn) > 0 else -1.0
+                off = float(model.x[o + 1] - sign * model.x[p + 1])
+                if abs(off) > 0.001 * model.extent + 10 * self.model.seen.deviation:
+                    continue
+                equation = Difference((o + 1,), (p + 1,), sign=sign)
+                if self.takes(equation, model.extent):
+                    yield Regularity("collinear", (head, k), off)
+                    break
+
+    def _best_known(self, kind: int, offset: int) -> list[int]:
+        """Elements of a kind, first those whose unknown at an offset is known best."""
+        model, variances = self.model, np.diag(self.covariance)
+        own = [k for k in model.at if model.kind(k) == kind]
+        return sorted(own, key=lambda k: float(variances[model.at[k] + offset]))
+
+
+def tangency(model: Model, k: int, m: int) -> Constraint | None:
+    """The equation that two neighbours are tangent; None for two lines."""
+    if model.kind(k) == LINE:
+        if model.kind(m) == LINE:
+            return None
+        return LineTouches(model.at[k], model.at[m], model.ways[m])
+    if model.kind(m) == LINE:
+        return LineTouches(model.at[m], model.at[k], model.ways[k])
+    return CirclesTouch(model.at[k], model.at[m], model.ways[k] == model.ways[m])
+
+
+def fits_badly(model: Model, before: dict[int, Misfit]) -> bool:
+    """Whether equations are not met, or an element fits worse than noise explains."""
+    h, _ = model.equations(model.x)
+    if len(h) and float(np.abs(h).max()) > MET * model.extent:
+        return True
+    anyhow = ANYHOW * model.seen.largest_deviation / model.seen.deviation
+    for k, now in model.misfits().items():
+        old = before[k].mean
+        if now.mean > max(WORSE_PART * old, old + WORSE_BY, anyhow):
+            return True
+    return False

@@ -1,0 +1,231 @@
+"""Which stretches of an outline are lines, arcs and free-form runs: the shortest description."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline import _kernels
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from shapespline.engines.drawn.observed import Observed
+    from shapespline.typing import FloatArray, IntArray
+
+LINE, ARC, FREE = 0, 1, 2
+# Nats per parameter; smooth joints turn by less than this, radians (DRA-01).
+PRICE, SMOOTH = 4.0, 0.14
+# A free-form curve counts as so many parameters (DRA-01).
+FREE_PARAMETERS = 5.0
+# Prices of joints in those of a parameter: what is seldom drawn costs, or smooth chains of arcs
+# follow anything (DRA-01).
+JOINTS = _kernels.JointPrices(
+    line_line_smooth=2.0,
+    line_arc_smooth=1.0,
+    arc_arc_smooth=2.5,
+    arc_arc_corner=0.5,
+    line_free_smooth=1.0,
+    arc_free_smooth=2.0,
+    free_corner=1.0,
+    arc_free_corner=1.5,
+)
+# Points on either side of a node that the second search tries, and of the first cut.
+NEAR, FREED = 3, 40
+# A piece is at least so long: in lengths that do not count, in steps (DRA-01).
+SHORTEST_BLUNTED, SHORTEST_STEPS = 2.2, 2.5
+# Nodes of free-form runs are looked for at every so many-th part of the outline, and not closer
+# than so many points.
+FREE_PARTS, FREE_STEP = 160, 4
+# Neighbouring lines that one line explains are one: systematic errors of a picture broke them. So
+# many deviations in the mean and at most; an arc whose sagitta is under this many is a line.
+MEAN_MISFIT, LARGEST_MISFIT, FLAT = 2.2, 5.0, 2.5
+FLAT_CHORD = 15.0
+# Radians that data turn at a corner, between chords of so many points.
+CORNER, CORNER_STEPS = 0.5, 4
+
+
+class Segment(NamedTuple):
+    """Points ``begin`` to ``end`` of a row, and what they are."""
+
+    begin: int
+    end: int
+    kind: int
+
+
+class Segments(NamedTuple):
+    """Segments end to end of an open row of points, with their arc lengths and weights.
+
+    A closed outline's row begins and ends with the same point.
+    """
+
+    points: FloatArray
+    stations: FloatArray
+    weights: FloatArray
+    first: int
+    found: tuple[Segment, ...]
+
+    def turned(self, k: int) -> Segments:
+        """Those of a closed outline, beginning with segment k."""
+        if k == 0:
+            return self
+        cut, n = self.found[k].begin, len(self.points) - 1
+        order = (np.arange(n + 1) + cut) % n
+        found = tuple(
+            Segment((s.begin - cut) % n, ((s.end - cut) % n) or n, s.kind)
+            for s in self.found[k:] + self.found[:k]
+        )
+        return _row(self.points[order], self.weights[order], (self.first + cut) % n, found)
+
+
+def segmented(seen: Observed) -> Segments:
+    """The segments of an outline."""
+    if not seen.closed:
+        return _merged(_solved(seen, 0)[0], seen)
+    start = sharpest(seen.points)
+    best, cost = _solved(seen, start)
+    # A second cut, at a node far from the first, frees the first one. Nodes stay where they are but
+    # for some points, about the first one many.
+    nodes = [segment.begin for segment in best.found[1:]]
+    if nodes:
+        n = len(seen.points)
+        far = min(nodes, key=lambda at: abs(at - n / 2))
+        begin = (start + far) % n
+        about = [(at - far) % n for at in nodes]
+        first = (n - far) % n
+        near = np.concatenate(
+            [
+                np.add.outer(about, np.arange(-NEAR, NEAR + 1)).ravel(),
+                first + np.arange(-FREED, FREED + 1),
+            ]
+        )
+        again, other = _solved(seen, begin, about, np.unique(near[(near > 0) & (near < n)]))
+        if other <= cost * (1 + 1e-12):
+            best = again
+    best = _merged(best, seen)
+    whole = next((k for k, s in enumerate(best.found) if s.kind != FREE), 0)
+    return best.turned(whole)
+
+
+def sharpest(points: FloatArray) -> int:
+    """The point with the largest turn between chords of a sixtieth of a closed outline."""
+    k = max(2, len(points) // 60)
+    a, b = points - np.roll(points, k, axis=0), np.roll(points, -k, axis=0) - points
+    turn = np.abs(np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1)))
+    return int(np.argmax(turn))
+
+
+def _row(
+    points: FloatArray, weights: FloatArray, first: int, found: tuple[Segment, ...]
+) -> Segments:
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    return Segments(points, np.concatenate([[0.0], np.cumsum(steps)]), weights, first, found)
+
+
+def _solved(
+    seen: Observed, start: int, candidates: Sequence[int] = (), nodes: IntArray | None = None
+) -> tuple[Segments, float]:
+    """Segments of the row that begins at a point, and what they cost."""
+    n = len(seen.points)
+    order = (np.arange(n + seen.closed) + start) % n
+    row = _row(seen.points[order], np.ones(len(order)), start, ())
+    weights = row.weights
+    if seen.pixel:  # one independent sample to a pixel
+        weights = np.minimum(np.gradient(row.stations) / seen.pixel, 1.0)
+    low, high = row.points.min(axis=0), row.points.max(axis=0)
+    size = 0.5 * float((high - low).max())
+    parts, cost = _kernels.drawn_pieces(
+        np.ascontiguousarray((row.points - 0.5 * (low + high)) / size),
+        row.stations / size,
+        weights,
+        np.array(sorted(candidates), dtype=np.int64),
+        np.empty(0, dtype=np.int64) if nodes is None else nodes.astype(np.int64),
+        _kernels.SegmentationSettings(
+            deviation=seen.deviation / size,
+            skip=seen.skip / size,
+            shortest=max(SHORTEST_BLUNTED * seen.skip, SHORTEST_STEPS * seen.step) / size,
+            price=PRICE,
+            free_parameters=FREE_PARAMETERS,
+            smooth_turn=float(np.tan(SMOOTH)),
+            stride=max(FREE_STEP, round(len(order) / FREE_PARTS)),
+            joints=JOINTS,
+        ),
+    )
+    return row._replace(weights=weights, found=tuple(Segment(*part) for part in parts)), cost
+
+
+def _merged(row: Segments, seen: Observed) -> Segments:
+    """Arcs too flat to tell as lines, lines that one line explains as one; of a picture only."""
+    if not seen.pixel:
+        return row
+    sigma, points = seen.deviation, row.points
+    found = [
+        s._replace(kind=LINE) if s.kind == ARC and _is_flat(points, s, sigma) else s
+        for s in row.found
+    ]
+    k = 0
+    while k + 1 < len(found):
+        a, b = found[k], found[k + 1]
+        if a.kind == b.kind == LINE and _on_one_line(points[a.begin + 2 : b.end - 1], sigma):
+            found[k : k + 2] = [Segment(a.begin, b.end, LINE)]
+            k = max(k - 1, 0)
+        else:
+            k += 1
+    return row._replace(found=tuple(found))
+
+
+def supported(row: Segments, closed: bool) -> Segments:
+    """The row with elements that nothing but their own fit speaks for as free-form.
+
+    A stretch of any smooth curve is a line or an arc for a while. One was drawn if it meets
+    another element or ends in a corner; an arc between free-form curves is never told.
+    """
+    found = list(row.found)
+    n = len(found)
+    for k, segment in enumerate(row.found):
+        about = [(k - 1) % n, (k + 1) % n] if closed else [k - 1, k + 1]
+        beside = [row.found[m] for m in about if 0 <= m < n and m != k]
+        if segment.kind == FREE or any(other.kind != FREE for other in beside):
+            continue
+        corners = [_is_corner(row, at, closed) for at in (segment.begin, segment.end)]
+        if segment.kind == ARC or not all(corners):
+            found[k] = segment._replace(kind=FREE)
+    row = row._replace(found=tuple(found))
+    whole = next((k for k, s in enumerate(found) if s.kind != FREE), 0)
+    return row.turned(whole) if closed else row
+
+
+def _is_corner(row: Segments, at: int, closed: bool) -> bool:
+    """Whether the data turn sharply at a point, or end there."""
+    points, n = row.points, len(row.points)
+    if not closed and at in (0, n - 1):
+        return True
+    size = n - 1 if closed else n
+    before, after = at - CORNER_STEPS, at + CORNER_STEPS
+    if not closed:
+        before, after = max(before, 0), min(after, n - 1)
+    a = points[at % size] - points[before % size]
+    b = points[after % size] - points[at % size]
+    return abs(float(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b))) > CORNER
+
+
+def _is_flat(points: FloatArray, arc: Segment, sigma: float) -> bool:
+    """Whether the sagitta of an arc is lost in the noise."""
+    i, j, _ = arc
+    if j - i > 12:
+        i, j = i + 3, j - 3
+    chord = points[j] - points[i]
+    size = float(np.hypot(*chord))
+    middle = points[(i + j) // 2] - points[i]
+    sagitta = abs(float(middle[0] * chord[1] - middle[1] * chord[0])) / max(size, 1e-300)
+    return sagitta < FLAT * sigma * min(1.0, size / (FLAT_CHORD * FLAT))
+
+
+def _on_one_line(points: FloatArray, sigma: float) -> bool:
+    if len(points) < 4:
+        return False
+    off = points - points.mean(axis=0)
+    across = off @ np.linalg.eigh(off.T @ off)[1][:, 0]
+    mean = float(np.sqrt((across**2).mean()))
+    return mean < MEAN_MISFIT * sigma and float(np.abs(across).max()) < LARGEST_MISFIT * sigma

@@ -1,0 +1,123 @@
+"""The shape as it was drawn: lines, arcs and regularities first, the tolerance for the rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.engines.drawn import DrawnArc, DrawnLine, FreeRun, as_drawn
+from shapespline.fitting.choose import DRAWN
+from shapespline.fitting.problem import Problem
+from shapespline.fitting.verify import Candidate
+from shapespline.geometry import joined, two_sided_distance
+from shapespline.values import Contour, Piece
+
+if TYPE_CHECKING:
+    from shapespline.analysis import Resolution
+    from shapespline.engines.drawn import Drawn
+    from shapespline.fitting.strategies import Ask, Proposals
+    from shapespline.monitor import Monitor
+    from shapespline.values import Regularity
+
+# Of more points the structure is not looked for; all those of a picture count, and time rises with
+# their square.
+MOST_POINTS, MOST_OF_PICTURE = 20_000, 6_000
+# Without a tolerance a drawn shape explains points no farther than so many bands, those of a
+# picture than so many times its accuracy; a corner that it blunts lies beyond them (DRA-06).
+FARTHEST, FARTHEST_OF_PICTURE, FARTHEST_CORNER = 1.5, 25.0, 75.0
+
+
+@dataclass(frozen=True)
+class DrawnPieces:
+    """Lines, arcs and free-form runs as they were drawn.
+
+    ``ask`` fits the free-form runs between their ends, with the tangents there; ``shown`` is what
+    the points can show where no tolerance is given.
+    """
+
+    ask: Ask
+    shown: Resolution | None = None
+
+    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
+        """One curve, if the data tell of lines and arcs."""
+        contour, style = problem.contour, problem.request.style
+        within = problem.tolerance if self.shown is None else self.shown.band
+        normalized = problem.ordered
+        scale = normalized.scale
+        accuracy = None if contour.level_line is None else contour.accuracy
+        if len(contour) > (MOST_OF_PICTURE if accuracy else MOST_POINTS):
+            return
+        found = as_drawn(
+            normalized.contour,
+            None if accuracy is None else accuracy * scale,
+            style.regularities,
+            np.inf if self.shown is not None else within * scale,
+        )
+        if found is None or monitor.ended:
+            return
+        runs = any(isinstance(part, FreeRun) for part in found.parts)
+        if runs and self.shown is not None and not self.shown.clean:
+            return  # noise between them is smoothed with the rest
+        pieces, regularities = self._pieces(problem, found, within * scale, monitor)
+        if not pieces:
+            return
+        candidate = Candidate(
+            method="drawn",
+            rank=DRAWN,
+            pieces=normalized.restored(pieces),
+            regularities=_in_data(regularities, len(pieces), scale, normalized.reversed),
+        )
+        if self.shown is not None and not self._explains(candidate, problem):
+            return
+        yield candidate
+
+    def _pieces(
+        self, problem: Problem, found: Drawn, within: float, monitor: Monitor
+    ) -> tuple[tuple[Piece, ...], list[Regularity]]:
+        """Pieces in the working unit, none where a run was not fitted; and what they keep."""
+        pieces: list[Piece] = []
+        place: dict[int, int] = {}
+        for k, part in enumerate(found.parts):
+            place[k] = len(pieces)
+            if isinstance(part, DrawnLine):
+                ends = np.stack([part.begin, part.end])
+                pieces.append(Piece("line", 1, np.array([0.0, 0.0, 1.0, 1.0]), ends))
+            elif isinstance(part, DrawnArc):
+                pieces.append(Piece.of_arc(part.arc, within, begin=part.begin, end=part.end))
+            else:
+                run = Contour.silently(part.points, False)
+                asked = problem.request.part(run, within, part.tangents)
+                fitted = self.ask(Problem(asked), monitor)
+                if not fitted.kept or fitted.tangent_error:
+                    return (), []
+                pieces += fitted.fit.pieces
+        kept = [
+            one._replace(pieces=tuple(place[k] for k in one.pieces)) for one in found.regularities
+        ]
+        return tuple(pieces), kept
+
+    def _explains(self, candidate: Candidate, problem: Problem) -> bool:
+        """Whether the curve comes near all points."""
+        contour = problem.contour
+        farthest = beyond = FARTHEST * (self.shown.band if self.shown else problem.tolerance)
+        if contour.level_line is not None and contour.accuracy is not None:
+            farthest = max(farthest, FARTHEST_OF_PICTURE * contour.accuracy)
+            beyond = max(beyond, FARTHEST_CORNER * contour.accuracy)
+        found = two_sided_distance(joined(candidate.pieces, problem.request.style.degree), contour)
+        return found.max_distance <= farthest and found.reverse_distance <= beyond
+
+
+def _in_data(
+    found: list[Regularity], n_pieces: int, scale: float, backwards: bool
+) -> tuple[Regularity, ...]:
+    """Regularities by the places and in the unit of the data."""
+    angles = ("tangent", "axis-parallel", "parallel", "perpendicular")
+    return tuple(
+        one._replace(
+            pieces=tuple(sorted(n_pieces - 1 - k if backwards else k for k in one.pieces)),
+            off=one.off if one.name in angles else one.off / scale,
+        )
+        for one in found
+    )

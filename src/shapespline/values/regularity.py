@@ -1,0 +1,26 @@
+"""Regularity: something that the pieces of a curve keep exactly."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Regularity(NamedTuple):
+    """Something that pieces of a curve keep exactly, because the data allow it.
+
+    Attributes
+    ----------
+    name : str
+        Such as "axis-parallel" or "equal-radius".
+    pieces : tuple of int
+        The pieces that it is about, by their places among ``fit.sections``.
+    off : float
+        How far the data alone were from it: degrees for directions, otherwise data units.
+    order : int
+        Of a rotation: how many turns there are; 1 for what has none.
+    """
+
+    name: str
+    pieces: tuple[int, ...]
+    off: float
+    order: int = 1

@@ -1,0 +1,169 @@
+"""Lines, arcs and regularities out of points of known drawings."""
+
+import numpy as np
+import pytest
+
+from shapespline.engines.drawn import NAMES, DrawnArc, DrawnLine, FreeRun, as_drawn
+from shapespline.engines.drawn.constraints import CirclesTouch, Images, LineTouches
+from shapespline.engines.drawn.model import Model
+from shapespline.engines.drawn.observed import Observed
+from shapespline.engines.drawn.segments import segmented
+from shapespline.values import Contour
+
+
+def arc(centre, radius, begin, sweep, n):
+    angle = np.radians(begin + sweep * np.arange(n) / n)
+    return np.asarray(centre) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def side(a, b, n):
+    return np.asarray(a) + np.arange(n)[:, None] / n * (np.asarray(b) - np.asarray(a, dtype=float))
+
+
+def slot(n=60):
+    """Two sides of length 40 and two half circles of radius 8."""
+    return np.concatenate(
+        [
+            side((-20, -8), (20, -8), n),
+            arc((20, 0), 8, -90, 180, n // 2),
+            side((20, 8), (-20, 8), n),
+            arc((-20, 0), 8, 90, 180, n // 2),
+        ]
+    )
+
+
+def turned(points, degrees):
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return points @ np.array([[c, s], [-s, c]])
+
+
+def kinds(found):
+    letters = {DrawnLine: "L", DrawnArc: "A", FreeRun: "C"}
+    return "".join(letters[type(part)] for part in found.parts)
+
+
+def names(found):
+    return {one.name for one in found.regularities}
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.7])
+def test_a_slot_is_two_lines_and_two_arcs(degrees):
+    found = as_drawn(Contour(turned(slot(), degrees), closed=True))
+    assert sorted(kinds(found)) == list("AALL")
+    arcs = [part.arc for part in found.parts if isinstance(part, DrawnArc)]
+    lines = [part for part in found.parts if isinstance(part, DrawnLine)]
+    # The data are exact: what is left is rounding of coordinates of some tens.
+    assert np.allclose([one.radius for one in arcs], 8, atol=1e-9)
+    assert np.allclose([abs(one.sweep) for one in arcs], np.pi, atol=1e-9)
+    assert np.allclose([np.hypot(*(one.end - one.begin)) for one in lines], 40, atol=1e-9)
+    assert {"tangent", "equal-radius"} <= names(found)
+
+
+def test_noise_keeps_the_structure_and_its_edges_exactly_level():
+    shaken = slot() + np.random.default_rng(1).normal(0, 0.02, (180, 2))
+    found = as_drawn(Contour(shaken, closed=True))
+    assert sorted(kinds(found)) == list("AALL")
+    lines = [part for part in found.parts if isinstance(part, DrawnLine)]
+    assert all(one.begin[1] == one.end[1] for one in lines)
+    arcs = [part.arc for part in found.parts if isinstance(part, DrawnArc)]
+    # Least squares over 30 points of a half circle: its standard error is below a third of a
+    # point's, four of them.
+    assert np.allclose([one.radius for one in arcs], 8, atol=4 * 0.02 / 3)
+    assert arcs[0].radius == pytest.approx(arcs[1].radius, abs=1e-9)
+
+
+def test_regularities_are_switched():
+    shaken = Contour(slot() + np.random.default_rng(1).normal(0, 0.02, (180, 2)), closed=True)
+    assert names(as_drawn(shaken, regularities=("axis-parallel",))) == {"axis-parallel"}
+    free = as_drawn(shaken, regularities=())
+    assert not free.regularities
+    lines = [part for part in free.parts if isinstance(part, DrawnLine)]
+    assert any(one.begin[1] != one.end[1] for one in lines)
+    assert names(as_drawn(shaken)) <= set(NAMES)
+
+
+def test_a_circle_is_one_arc_and_a_pebble_none():
+    circle = as_drawn(Contour(arc((3, 4), 5, 0, 360, 100), closed=True))
+    (whole,) = circle.parts
+    assert whole.arc.radius == pytest.approx(5, abs=1e-9)
+    assert abs(whole.arc.sweep) == 2 * np.pi
+    t = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    r = 35 + 8 * np.cos(2 * t + 0.4) + 5 * np.sin(3 * t) + 2.5 * np.cos(5 * t + 1)
+    pebble = np.column_stack([r * np.cos(t), r * np.sin(t)])
+    assert as_drawn(Contour(pebble, closed=True)) is None
+    assert as_drawn(Contour(pebble[:10], closed=True)) is None  # too few to tell
+
+
+def test_an_open_row_ends_where_it_does():
+    row = np.concatenate([side((0, 0), (30, 0), 40), arc((30, 10), 10, -90, 90, 30), [[40, 10]]])
+    found = as_drawn(Contour(row, closed=False))
+    assert kinds(found) == "LA"
+    assert np.allclose(found.parts[0].begin, 0, atol=1e-9)
+    assert np.allclose(found.parts[1].end, (40, 10), atol=1e-9)
+
+
+def test_a_star_turns_and_is_mirrored():
+    corner = np.pi * np.arange(10) / 5 + 0.1
+    radius = np.where(np.arange(10) % 2, 20, 45)
+    tips = np.column_stack([radius * np.cos(corner), radius * np.sin(corner)])
+    points = np.concatenate(
+        [side(a, b, 25) for a, b in zip(tips, np.roll(tips, -1, 0), strict=True)]
+    )
+    shaken = points + np.random.default_rng(2).normal(0, 0.05, points.shape)
+    found = as_drawn(Contour(shaken, closed=True))
+    assert kinds(found) == 10 * "L"
+    assert ("rotation", 5) in {(one.name, one.order) for one in found.regularities}
+    nodes = np.array([part.begin for part in found.parts])
+    away = np.hypot(*(nodes - nodes.mean(axis=0)).T)
+    # Equal to rounding, which equations that are solved to 1e-11 of the extent leave.
+    assert max(np.ptp(away[::2]), np.ptp(away[1::2])) < 1e-8
+
+
+def test_jacobians_are_difference_quotients():
+    x = np.random.default_rng(4).uniform(0.5, 1.5, 14)
+    x[5] = 4.0  # the radius of a circle around another
+    for one in (
+        LineTouches(0, 3, -1.0),
+        CirclesTouch(3, 6, True),
+        CirclesTouch(3, 6, False),
+        Images((0, 9), (9, 0), 12, True, 0.7),
+        Images((0,), (9,), 12, True),
+        Images((3,), (6,), 12, False, 0.7),
+        Images((3, 6), (6, 6), 12, False),
+    ):
+        _h, jacobian = one.value(x)
+        for k, i in enumerate(one.index):
+            step = np.zeros(14)
+            step[i] = 1e-6
+            quotient = (one.value(x + step)[0] - one.value(x - step)[0]) / 2e-6
+            # Second differences of functions of order one, and rounding: 1e-12 + 1e-10.
+            assert np.allclose(jacobian[:, k], quotient, atol=1e-8)
+
+
+def test_equations_are_met_and_the_rest_is_least_squares():
+    shaken = Contour(slot() + np.random.default_rng(1).normal(0, 0.02, (180, 2)), closed=True)
+    seen = Observed.of(shaken, None)
+    model = Model.of(seen, segmented(seen))
+    line = next(k for k in model.at if k not in model.ways)
+    circle = next(iter(model.ways))
+    model.constraints.append(LineTouches(model.at[line], model.at[circle], model.ways[circle]))
+    model.solve()
+    assert abs(model.equations(model.x)[0][0]) < 1e-10
+    matrix, gradient, _ = model.normal(model.x)
+    _, space = model.null_space()
+    # In the null space nothing is left to gain: the last step was below 1e-11 of the extent.
+    assert np.abs(space.T @ gradient).max() < 1e-8 * np.abs(matrix).max()
+
+
+def test_small_and_odd_outlines_are_no_error():
+    random = np.random.default_rng(1)
+    for trial in range(30):
+        angle = np.linspace(0, random.uniform(4, 6.2), random.integers(12, 40))
+        points = 4 * np.column_stack([np.cos(angle), np.sin(angle)])
+        tip = random.uniform(-8, 8, (1, 2))
+        shaken = np.concatenate([points, tip]) + random.normal(0, 0.01, (len(points) + 1, 2))
+        contour = Contour(shaken, closed=trial % 2 == 0)
+        found = as_drawn(contour, [None, 0.02][trial % 3 == 0], tolerance=0.3)
+        for part in () if found is None else found.parts:
+            if not isinstance(part, FreeRun):
+                assert np.isfinite([part.begin, part.end]).all()

@@ -1,0 +1,116 @@
+"""Fits as they were drawn, through the public functions."""
+
+import numpy as np
+import pytest
+from tests.support.promise import checked
+from tests.support.rendering import coverage, dark, polygon
+
+import shapespline as ss
+
+
+def rounded_box():
+    """100 by 60, corners of radius 12: about a point a unit."""
+    parts = []
+    for corner, (x, y) in enumerate([(38, -18), (38, 18), (-38, 18), (-38, -18)]):
+        a = np.radians(-90 + 90 * corner + 90 * np.arange(18) / 18)
+        parts.append(np.column_stack([x + 12 * np.cos(a), y + 12 * np.sin(a)]))
+        along = np.arange(0, 36 if corner % 2 == 0 else 76)[:, None]
+        parts.append(
+            [x + 12 * np.cos(a[-1] + np.pi / 36), y + 12 * np.sin(a[-1] + np.pi / 36)]
+            + along * [(0, 1), (-1, 0), (0, -1), (1, 0)][corner]
+        )
+    return np.concatenate(parts)
+
+
+def test_the_promise_holds_and_edges_are_level_to_the_bit():
+    shaken = rounded_box() + np.random.default_rng(3).normal(0, 0.03, (len(rounded_box()), 2))
+    fit = checked(ss.fit_curve(shaken, closed=True, tolerance=0.4, character="drawn"), 0.4)
+    assert sorted(piece.kind for piece in fit.pieces) == 4 * ["arc"] + 4 * ["line"]
+    assert fit.n_stored_points == 12
+    for piece in fit.pieces:
+        if piece.kind == "line":
+            assert (piece.control_points[0] == piece.control_points[1]).any()
+    told = {one.name for one in fit.regularities}
+    assert {"axis-parallel", "tangent", "equal-radius"} <= told
+    assert all(0 <= k < 8 for one in fit.regularities for k in one.pieces)
+    radii = [piece.arc.radius for piece in fit.pieces if piece.arc]
+    assert max(radii) - min(radii) < 1e-9 * 12
+    # Looser, no edge is less straight: structure comes from the noise, not from the tolerance.
+    loose = ss.fit_curve(shaken, closed=True, tolerance=3.0, character="drawn")
+    assert [piece.kind for piece in loose.pieces] == [piece.kind for piece in fit.pieces]
+    plain = ss.fit_curve(shaken, closed=True, tolerance=0.4, character="drawn", regularities=None)
+    assert plain.kept
+    assert plain.regularities == ()
+
+
+def test_free_form_parts_run_smoothly_into_lines():
+    t = np.linspace(0, 1, 120)
+    wave = np.column_stack([100 * t, 12 * t**2 * (1 - t) ** 2 * 16 * (1 + np.sin(7 * t))])
+    row = np.concatenate([np.column_stack([np.arange(-60, 0), np.zeros(60)]), wave])
+    fit = checked(ss.fit_curve(row, closed=False, tolerance=0.3, character="drawn"), 0.3)
+    assert fit.pieces[0].kind == "line"
+    assert len(fit.pieces) > 1
+    assert not len(fit.corners)
+
+
+def test_a_picture_comes_back_as_it_was_drawn():
+    angle = np.radians(17)
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    corners = np.array([(-30, -18), (30, -18), (30, 18), (-30, 18)]) @ turn + (45.3, 40.8)
+    shape = ss.trace(dark(coverage(polygon(corners), 80, 90)))
+    for tolerance in (None, 0.35):
+        (fit,) = ss.fit_shape(shape, tolerance=tolerance, character="drawn")
+        assert fit.kept
+        assert [piece.kind for piece in fit.pieces] == 4 * ["line"]
+        nodes = np.array([piece.control_points[0] for piece in fit.pieces])
+        # 32 samples a side of a pixel leave 1/64 of one in place, averaged over an edge less.
+        assert all(np.hypot(*(nodes - corner).T).min() < 0.02 for corner in corners)
+
+
+def test_what_is_organic_is_as_with_the_fewest_points():
+    t = np.linspace(0, 2 * np.pi, 300, endpoint=False)
+    r = 35 + 8 * np.cos(2 * t + 0.4) + 5 * np.sin(3 * t) + 2.5 * np.cos(5 * t + 1)
+    points = np.column_stack([r * np.cos(t), r * np.sin(t)])
+    drawn, fewest = (
+        ss.fit_curve(points, closed=True, tolerance=0.3, character=word)
+        for word in ("drawn", "fewest")
+    )
+    assert drawn == fewest
+
+
+def test_lines_and_arcs_for_machines_are_those_that_were_drawn():
+    options = {"closed": True, "tolerance": 0.2, "form": "arcs"}
+    drawn, fewest = (
+        checked(ss.fit_curve(rounded_box(), character=word, **options), 0.2)
+        for word in ("drawn", "fewest")
+    )
+    assert sorted(piece.kind for piece in drawn.pieces) == 4 * ["arc"] + 4 * ["line"]
+    assert len(drawn.pieces) < len(fewest.pieces)
+
+
+def test_a_tolerance_below_the_noise_falls_back():
+    shaken = rounded_box() + np.random.default_rng(3).normal(0, 0.3, (len(rounded_box()), 2))
+    assert checked(ss.fit_curve(shaken, closed=True, tolerance=0.2, character="drawn"), 0.2)
+
+
+def test_settings_survive_a_dictionary_and_bad_ones_are_refused():
+    from shapespline.fitting import Request, Settings
+
+    asked = Settings(tolerance=0.1, character="drawn", regularities=["mirror"])
+    assert Settings.from_dict(asked.to_dict()).regularities == ("mirror",)
+    request = Request.of(rounded_box(), True, asked)
+    again = Request.from_dict(request.to_dict())
+    assert (again.style.character, again.style.regularities) == ("drawn", ("mirror",))
+    for options, words in (
+        ({"character": "sketched"}, "character must be one of drawn, fewest"),
+        ({"character": "drawn", "form": "spline"}, "does not act where one spline"),
+        ({"character": "drawn", "corners": "free"}, "finds corners itself"),
+        ({"character": "drawn", "symmetric": True}, "keeps what was drawn"),
+        ({"character": "drawn", "ends": "fixed"}, "keeps what was drawn"),
+        ({"character": "drawn", "degree": 2}, "degree must be 3 or more"),
+        ({"regularities": None}, "regularities act with character='drawn' only"),
+        ({"character": "drawn", "regularities": "round"}, "some of tangent, rotation"),
+        ({"character": "drawn", "regularities": 3}, "some of tangent, rotation"),
+    ):
+        with pytest.raises(ss.InvalidInputError, match=words):
+            Settings(tolerance=0.1, **options)
