@@ -1,0 +1,98 @@
+// Asks for fits: drafts one after the other while something is dragged, then the whole.
+
+import { asked } from "./store.js";
+
+/** @typedef {import("./types.js").Fit} Fit */
+/** @typedef {import("./types.js").Done} Done */
+
+export class Fitter {
+  /**
+   * @param {import("./wire.js").Wire} wire
+   * @param {string} slot
+   * @param {() => void} changed
+   */
+  constructor(wire, slot, changed) {
+    this.wire = wire;
+    this.slot = slot;
+    this.changed = changed;
+    /** @type {(Fit | undefined)[]} */
+    this.fits = [];
+    /** @type {Done | null} */
+    this.done = null;
+    this.generation = 0;
+    this.newest = 0;
+    /** @type {{draft: boolean, answered: boolean, at: number} | null} */
+    this.flying = null;
+    /** @type {{message: Object<string, any>, draft: boolean} | null} */
+    this.waiting = null;
+    this.times = /** @type {number[]} */ ([]);
+    /** @type {(() => void)[]} */
+    this.finished = [];
+  }
+
+  /** Forget the fits of a document that is gone. */
+  clear() {
+    Object.assign(this, { fits: [], done: null, flying: null, waiting: null });
+    this.newest = this.generation;
+  }
+
+  get busy() {
+    return this.flying !== null;
+  }
+
+  /** @param {import("./types.js").State} state @param {number} outline @param {boolean} draft */
+  ask(state, outline, draft) {
+    this.send({ ...asked(state), outline }, draft);
+  }
+
+  /** @param {Object<string, any>} message @param {boolean} draft */
+  send(message, draft) {
+    // A draft under way is not cut off before it has shown something: dragging would show nothing.
+    if (this.flying?.draft && !this.flying.answered) {
+      this.waiting = { message, draft };
+      return;
+    }
+    this.waiting = null;
+    this.generation += 1;
+    this.flying = { draft, answered: false, at: performance.now() };
+    this.wire.send({ type: "fit", slot: this.slot, generation: this.generation, draft, ...message });
+    this.changed();
+  }
+
+  /** @param {Fit} fit */
+  hearFit(fit) {
+    if (fit.generation < this.newest) return;
+    this.newest = fit.generation;
+    this.fits[fit.outline] = fit;
+    if (fit.generation === this.generation && this.flying && !this.flying.answered) {
+      this.flying.answered = true;
+      this.times.push(performance.now() - this.flying.at);
+      if (this.times.length > 5000) this.times.shift();
+      this.next();
+    }
+    this.changed();
+  }
+
+  /** @param {Done} done */
+  hearDone(done) {
+    if (done.generation !== this.generation) return;
+    this.done = done;
+    this.flying = null;
+    this.next();
+    this.changed();
+    if (!done.draft && !this.waiting) for (const tell of this.finished.splice(0)) tell();
+  }
+
+  /** @param {number} generation */
+  failed(generation) {
+    if (generation !== this.generation) return;
+    this.flying = null;
+    this.next();
+    this.changed();
+  }
+
+  next() {
+    const { waiting } = this;
+    if (waiting) this.send(waiting.message, waiting.draft);
+  }
+}
