@@ -272,6 +272,8 @@ def _listening(host: str, port: int) -> socket.socket:
     found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         found.bind((host, port))
+        # From here on a browser is not turned away: it waits for the server to begin.
+        found.listen()
     except OSError as error:
         found.close()
         raise InvalidInputError(
