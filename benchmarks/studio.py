@@ -128,6 +128,7 @@ def dragged(page: Page, moves: int = DRAGS) -> list[float]:
 
 def logo(side: int) -> bytes:
     """A picture with letters and rings, so large."""
+    side *= 2
     picture = Image.new("L", (side, side), 255)
     draw = ImageDraw.Draw(picture)
     for k in range(6):
@@ -136,7 +137,8 @@ def logo(side: int) -> bytes:
         draw.ellipse([x - r, y - r, x + r, y + r], fill=0)
         draw.regular_polygon((x, y, 0.6 * r), 3 + k, fill=255)
     content = io.BytesIO()
-    picture.save(content, "PNG")
+    # Drawn twice as large, so that edges cover parts of pixels.
+    picture.reduce(2).save(content, "PNG")
     return content.getvalue()
 
 
@@ -215,7 +217,8 @@ def figures() -> None:
 def _saved(page: Page, name: str) -> None:
     """A screenshot with few colours, which is small."""
     picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
-    picture.quantize(64, dither=Image.Dither.NONE).save(FIGURES / name, optimize=True)
+    few = picture.quantize(96, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    few.save(FIGURES / name, optimize=True)
     print(f"docs/figures/{name}: {(FIGURES / name).stat().st_size / 1000:.0f} kB")
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from inspect import signature
 from math import isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from shapespline.errors import InvalidInputError
-from shapespline.fitting import Settings
+from shapespline.fitting import Settings, fit_shape
 from shapespline.validation import is_number
 from shapespline.values import Contour
 
@@ -23,10 +24,7 @@ if TYPE_CHECKING:
 OWN = ("corners", "through", "end_tangents", "moved")
 MOST_MOVED = 1000
 # `fit_shape` takes these, and fits a document as the command line does.
-OF_SHAPES = {
-    "tolerance", "n_control_points", "degree", "corners", "form", "effort", "method", "ends",
-    "symmetric", "outliers", "time_limit",
-}  # fmt: skip
+OF_SHAPES = frozenset(signature(fit_shape).parameters)
 
 
 class Move(NamedTuple):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from shapespline.values import Fit
 
 # While a slider moves a search ends after so many seconds with its best curve, which is verified.
-DRAFT_SECONDS = 0.12
+DRAFT_SECONDS = 0.08
 # Of one outline, where nobody said a limit: a page is no place to wait longer.
 MOST_SECONDS = 60.0
 # splprep's smoothing factor is halved down to this difference of its decimal logarithm.

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     Work: TypeAlias = Callable[["Ticket"], None]
 
 
+# Seconds between two words on how a job goes.
+BETWEEN = 0.4
+
+
 class Cancelled(Exception):  # noqa: N818 - no error: a newer request took its place
     """A job's answer is no longer wanted."""
 
@@ -25,9 +29,10 @@ class Cancelled(Exception):  # noqa: N818 - no error: a newer request took its p
 class Ticket:
     """What a job is asked with: its number, and whether it is still wanted."""
 
-    def __init__(self, generation: int) -> None:
+    def __init__(self, generation: int, tell: Callable[[str], None] | None = None) -> None:
         self.generation = generation
-        self.began = monotonic()
+        self._tell = tell
+        self._told = monotonic()
         self._ended = threading.Event()
 
     def end(self) -> None:
@@ -39,10 +44,15 @@ class Ticket:
         """Whether the answer is."""
         return not self._ended.is_set()
 
-    def check(self, _: Iteration | None = None) -> None:
-        """Raise unless the answer is wanted: the callback of every search."""
+    def check(self, record: Iteration | None = None) -> None:
+        """Raise unless the answer is wanted: the callback of every search; tell how it goes."""
         if self._ended.is_set():
             raise Cancelled
+        now = monotonic()
+        if record is not None and self._tell is not None and now - self._told > BETWEEN:
+            self._told = now
+            so_far = f", {record.cost:.0f} points so far" if record.cost >= 1 else ""
+            self._tell(f"fitting for {record.seconds:.0f} s{so_far}")
 
 
 class Lane:
@@ -65,9 +75,11 @@ class Lane:
         self._thread: threading.Thread | None = None
         self._closed = False
 
-    def submit(self, generation: int, work: Work) -> Ticket:
+    def submit(
+        self, generation: int, work: Work, tell: Callable[[str], None] | None = None
+    ) -> Ticket:
         """Do a job as soon as the one before it has ended, which is told to."""
-        ticket = Ticket(generation)
+        ticket = Ticket(generation, tell)
         with self._changed:
             self._end_all()
             if self._closed:

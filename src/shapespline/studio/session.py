@@ -356,7 +356,12 @@ class Session:
             if ticket.wanted:
                 self._say({**about, "sentence": sentence})
 
-        self._lanes[slot].submit(int(header.get("generation") or 0), guarded)
+        generation = int(header.get("generation") or 0)
+
+        def tell(text: str) -> None:
+            self._say({"type": "progress", "slot": slot, "generation": generation, "text": text})
+
+        self._lanes[slot].submit(generation, guarded, tell)
 
     def _say(
         self, header: Mapping[str, Any], arrays: Mapping[str, np.ndarray] | None = None

@@ -95,7 +95,7 @@ export class App {
     else if (message.type === "film") this.paper.hearFilm(message);
     else if (message.type === "file") this.files.hearFile(message);
     else if (message.type === "text") this.files.hearText(message);
-    else if (message.type === "progress") this.progress(message.text);
+    else if (message.type === "progress") this.progress(message);
     else if (message.type === "error") this.error(message, of);
   }
 
@@ -237,13 +237,17 @@ export class App {
     const text = this.paper.on ? this.paper.sentence() : sentence(this.fitter.fits, this.scene.outline, this.store.now.own);
     const said = text && this.compare.on && !this.paper.on ? `A: ${text}` : text;
     if (said && line.textContent !== said) line.textContent = said;
-    line.classList.toggle("busy", this.fitter.busy || !this.wire.connected);
+    const busy = this.fitter.busy || !this.wire.connected;
+    line.classList.toggle("busy", busy);
+    if (!busy) element("progress").textContent = "";
   }
 
-  /** @param {string} text */
-  progress(text) {
+  /** @param {{text: string, slot: string, generation: number}} message */
+  progress({ text, slot, generation }) {
+    if (slot === "a" && generation !== this.fitter.generation) return;
     if (!this.scene.shape) element("sentence").textContent = `${text[0].toUpperCase()}${text.slice(1)}.`;
     element("sentence").classList.add("busy");
+    element("progress").textContent = `${text} (Escape ends it)`;
   }
 
   /** @param {any} message @param {Fitter} of */

@@ -9,6 +9,8 @@ import { capital, choice, counted, element, fill, input, short, size, time } fro
 // The slider goes from this part of the diagonal to that, logarithmically.
 const [LEAST, MOST, STEPS] = [1e-6, 0.1, 1000];
 // Words that have a place of their own on the page.
+/** @type {Object<string, string>} */
+const FORMS = { pieces: "lines and curves", spline: "one spline", arcs: "lines and arcs" };
 const PLACED = new Set(["form", "effort", "ends", "knots"]);
 
 export class Panel {
@@ -63,7 +65,7 @@ export class Panel {
 
   /** @param {Object<string, string[]>} choices */
   offer(choices) {
-    fill(choice("form"), choices.form);
+    fill(choice("form"), choices.form.map((one) => /** @type {[string, string]} */ ([one, FORMS[one] ?? one])));
     fill(choice("effort"), choices.effort);
     element("more-words").replaceChildren(...Object.entries(choices).filter(([name]) => !PLACED.has(name)).map(([name, words]) => {
       const label = document.createElement("label");
