@@ -1,6 +1,7 @@
 """The studio in a browser: how soon there is a picture, how a drag feels, how large the page is.
 
     python -m benchmarks.studio              # the figures of docs/studio.md
+    python -m benchmarks.studio --soak       # 2 000 moves of the slider: memory, threads
     python -m benchmarks.studio --figures    # its pictures
 
 Needs a browser: Debian's chromium or Playwright's.
@@ -43,6 +44,18 @@ DONE = (
     "() => Boolean(window.studio?.fitter.done && !studio.fitter.done.draft && !studio.fitter.busy)"
 )
 DRAGS = 240
+# Moves of the slider, the next as soon as the one before has shown a fit.
+SOAK = """async (moves) => {
+  const slider = document.querySelector("#tolerance");
+  for (let k = 0; k < moves; k++) {
+    slider.value = 560 + 120 * Math.sin(k / 9);
+    slider.dispatchEvent(new Event("input"));
+    while (studio.fitter.flying && !studio.fitter.flying.answered) {
+      await new Promise((next) => setTimeout(next, 4));
+    }
+  }
+  slider.dispatchEvent(new Event("change"));
+}"""
 
 
 def browser_path() -> str | None:
@@ -191,6 +204,30 @@ def measure() -> None:
         print(f"4000 x 4000 logo: traced and fitted in {time.monotonic() - began:.1f} s")
 
 
+def soak(browser: Browser, moves: int = 2000) -> dict[str, list[float]]:
+    """Memory and threads of the program, memory of the page, at every quarter of many moves."""
+    told: dict[str, list[float]] = {"program, MB": [], "threads": [], "page, MB": []}
+    with served() as (address, process):
+        page = opened(browser, address)
+        give(page, "plane.csv", PLANE.read_bytes())
+        tools = page.context.new_cdp_session(page)
+        for quarter in range(5):
+            if quarter:
+                page.evaluate(SOAK, moves // 4)
+                until(page, DONE, 60)
+            tools.send("HeapProfiler.collectGarbage")
+            heap = tools.send("Runtime.getHeapUsage")["usedSize"]
+            status = Path(f"/proc/{process.pid}/status").read_text()
+            said = dict(line.split(":\t") for line in status.splitlines() if ":\t" in line)
+            told["program, MB"].append(round(int(said["VmRSS"].split()[0]) / 1000, 1))
+            told["threads"].append(int(said["Threads"]))
+            told["page, MB"].append(round(heap / 1e6, 1))
+        page.context.close()
+    for name, values in told.items():
+        print(f"{name} after 0 to {moves} moves: {', '.join(f'{value:g}' for value in values)}")
+    return told
+
+
 def _table(points: np.ndarray) -> bytes:
     content = io.StringIO()
     np.savetxt(content, points, fmt="%.7g", delimiter=",")
@@ -223,4 +260,10 @@ def _saved(page: Page, name: str) -> None:
 
 
 if __name__ == "__main__":
-    figures() if "--figures" in sys.argv[1:] else measure()
+    if "--figures" in sys.argv[1:]:
+        figures()
+    elif "--soak" in sys.argv[1:]:
+        with browsing() as browser:
+            soak(browser)
+    else:
+        measure()

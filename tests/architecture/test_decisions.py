@@ -25,6 +25,7 @@ PREFIXES = [
     "PKG",
     "SPL",
     "STR",
+    "STU",
     "TRC",
     "VAL",
 ]

@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from benchmarks.studio import DONE, dragged, give, opened, until
+from benchmarks.studio import DONE, dragged, give, opened, soak, until
 
 import shapespline as ss
 from shapespline.studio.documents import MOST_BYTES
@@ -397,3 +397,11 @@ def test_axe_finds_nothing_to_mend(browser, address):
             page.click("#tab-pieces")
             check()
         page.context.close()
+
+
+def test_many_moves_of_the_slider_leave_no_threads_and_little_memory(browser):
+    told = soak(browser, 160)
+    threads, memory = told["threads"], told["program, MB"]
+    assert threads[-1] <= threads[1]
+    # Allocators keep some; a leak of one message of 15 kB a move would be 1.8 MB, of a fit more.
+    assert memory[-1] - memory[1] < 15

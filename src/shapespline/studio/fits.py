@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from shapespline.studio.jobs import Ticket
     from shapespline.values import Fit
 
-# While a slider moves a search ends after so many seconds with its best curve, which is verified.
+# While a slider moves a search ends after so many seconds with its best curve, which is verified
+# (STU-01).
 DRAFT_SECONDS = 0.08
 # Of one outline, where nobody said a limit: a page is no place to wait longer.
 MOST_SECONDS = 60.0
