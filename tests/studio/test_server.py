@@ -149,7 +149,11 @@ def test_ctrl_c_ends_it_cleanly_and_leaves_nothing_behind(tmp_path):
         assert address.startswith("http://127.0.0.1:")
         # The token has 24 random bytes.
         assert len(address.rstrip("/").rsplit("/", 1)[1]) == 32
-        time.sleep(0.5)
+        end = time.monotonic() + 10
+        while not list(tmp_path.iterdir()) and time.monotonic() < end:
+            time.sleep(0.02)
+        # Everything temporary goes into one folder, which is deleted whatever was going on.
+        assert [folder.name.partition("-")[0] for folder in tmp_path.iterdir()] == ["studio"]
         began = time.monotonic()
         server.send_signal(signal.SIGINT)
         code = server.wait(10)

@@ -12,6 +12,8 @@ import contextlib
 import ipaddress
 import secrets
 import socket
+import sys
+import tempfile
 import threading
 import webbrowser
 from pathlib import Path
@@ -28,7 +30,7 @@ from shapespline.studio.sketch import sketch
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from starlette.applications import Starlette
     from starlette.types import ASGIApp, Receive, Scope, Send
@@ -38,6 +40,8 @@ PAGE = Path(__file__).parent / "page"
 # Headers and settings beside the file.
 MOST_MESSAGE = MOST_BYTES + 5_000_000
 MOST_SESSIONS = 16
+# A fit that is in Python lets the thread of the messages in after so many seconds (STU-04).
+SWITCH_SECONDS = 0.001
 # Messages that wait for a slow page; more, and it is told goodbye: it comes back by itself.
 MOST_WAITING = 4000
 POLICY = (
@@ -114,11 +118,28 @@ def open_studio(
     )
     if announce is not None:
         announce(address)
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(SWITCH_SECONDS)
     threading.Thread(target=_warm, name="studio-warm", daemon=True).start()
     if browser:
         threading.Timer(0.3, webbrowser.open, [address]).start()
-    with contextlib.suppress(KeyboardInterrupt), listening:
-        server.run(sockets=[listening])
+    try:
+        with _own_temporary_folder(), contextlib.suppress(KeyboardInterrupt), listening:
+            server.run(sockets=[listening])
+    finally:
+        sys.setswitchinterval(before)
+
+
+@contextlib.contextmanager
+def _own_temporary_folder() -> Iterator[None]:
+    """Temporary files go where they are deleted at the end, even if a job is cut off."""
+    before = tempfile.tempdir
+    with tempfile.TemporaryDirectory(prefix="studio-", ignore_cleanup_errors=True) as folder:
+        tempfile.tempdir = folder
+        try:
+            yield
+        finally:
+            tempfile.tempdir = before
 
 
 def application(token: str, place: str, first: Document | None = None) -> Starlette:

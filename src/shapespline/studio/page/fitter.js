@@ -25,7 +25,10 @@ export class Fitter {
     this.flying = null;
     /** @type {{message: Object<string, any>, draft: boolean} | null} */
     this.waiting = null;
+    // Milliseconds from asking to the screen, and from the address to the first fit: for measurements.
     this.times = /** @type {number[]} */ ([]);
+    /** @type {number | null} */
+    this.first = null;
     /** @type {(() => void)[]} */
     this.finished = [];
   }
@@ -65,12 +68,21 @@ export class Fitter {
     this.newest = fit.generation;
     this.fits[fit.outline] = fit;
     if (fit.generation === this.generation && this.flying && !this.flying.answered) {
+      const { at } = this.flying;
       this.flying.answered = true;
-      this.times.push(performance.now() - this.flying.at);
-      if (this.times.length > 5000) this.times.shift();
       this.next();
+      this.changed();
+      requestAnimationFrame(() => this.painted(at));
+      return;
     }
     this.changed();
+  }
+
+  /** A fit is on the screen that was asked for at a time. @param {number} at */
+  painted(at) {
+    this.first ??= performance.now();
+    this.times.push(performance.now() - at);
+    if (this.times.length > 5000) this.times.shift();
   }
 
   /** @param {Done} done */
