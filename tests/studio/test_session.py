@@ -207,5 +207,5 @@ def test_a_lane_does_the_newest_and_ends():
     lane.submit(2, long)
     lane.submit(3, lambda ticket: done.put(ticket.generation))
     assert done.get(timeout=5) in ("ended", 3)
-    lane.close()
+    lane.close(5)
     assert not lane._thread.is_alive()

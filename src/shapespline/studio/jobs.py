@@ -98,8 +98,8 @@ class Lane:
             self._end_all()
             self._waiting = None
 
-    def close(self, seconds: float = 5.0) -> None:
-        """End everything; wait a while for the thread."""
+    def close(self, seconds: float = 0.0) -> None:
+        """End everything; wait so long for the thread, which no program waits for when it ends."""
         with self._changed:
             self._closed = True
             self._end_all()

@@ -264,7 +264,7 @@ async def _talk(websocket: WebSocket, sessions: set[Session], first: Document | 
     finally:
         pouring.cancel()
         sessions.discard(session)
-        await asyncio.to_thread(session.close)
+        session.close()
 
 
 def _warm() -> None:

@@ -100,9 +100,7 @@ class Session:
             self._say({"type": "error", "sentence": str(error), "about": "message"})
 
     def close(self) -> None:
-        """End all that is under way."""
-        for lane in self._lanes.values():
-            lane.cancel()
+        """End all that is under way; threads end when they next ask whether to go on."""
         for lane in self._lanes.values():
             lane.close()
 

@@ -23,7 +23,7 @@ export class Fitter {
     this.newest = 0;
     /** @type {{draft: boolean, answered: boolean, at: number} | null} */
     this.flying = null;
-    /** @type {{message: Object<string, any>, draft: boolean} | null} */
+    /** @type {{message: Object<string, any>, draft: boolean, patient: boolean} | null} */
     this.waiting = null;
     // Milliseconds from asking to the screen, and from the address to the first fit: for measurements.
     this.times = /** @type {number[]} */ ([]);
@@ -43,16 +43,17 @@ export class Fitter {
     return this.flying !== null;
   }
 
-  /** @param {import("./types.js").State} state @param {number} outline @param {boolean} draft */
-  ask(state, outline, draft) {
-    this.send({ ...asked(state), outline }, draft);
+  /** @param {import("./types.js").State} state @param {number} outline @param {boolean} draft
+   * @param {boolean} [patient] lets a draft under way show all of its outlines */
+  ask(state, outline, draft, patient = false) {
+    this.send({ ...asked(state), outline }, draft, patient);
   }
 
-  /** @param {Object<string, any>} message @param {boolean} draft */
-  send(message, draft) {
+  /** @param {Object<string, any>} message @param {boolean} draft @param {boolean} [patient] */
+  send(message, draft, patient = false) {
     // A draft under way is not cut off before it has shown something: dragging would show nothing.
-    if (this.flying?.draft && !this.flying.answered) {
-      this.waiting = { message, draft };
+    if (this.flying?.draft && (patient || !this.flying.answered)) {
+      this.waiting = { message, draft, patient };
       return;
     }
     this.waiting = null;
@@ -70,7 +71,7 @@ export class Fitter {
     if (fit.generation === this.generation && this.flying && !this.flying.answered) {
       const { at } = this.flying;
       this.flying.answered = true;
-      this.next();
+      if (!this.waiting?.patient) this.next();
       this.changed();
       requestAnimationFrame(() => this.painted(at));
       return;
@@ -105,6 +106,6 @@ export class Fitter {
 
   next() {
     const { waiting } = this;
-    if (waiting) this.send(waiting.message, waiting.draft);
+    if (waiting) this.send(waiting.message, waiting.draft, waiting.patient);
   }
 }

@@ -242,12 +242,15 @@ function drawKnots(scene, c) {
 function drawNodes(scene, c) {
   const palette = colors();
   const { scale } = scene.view;
-  const dense = scene.fits().reduce((sum, fit) => sum + (fit?.turns.length ?? 0), 0) > 3000;
-  c.lineWidth = 1.6 / scale;
-  for (const fit of scene.fits()) {
-    if (!fit || (dense && scale < 3 * scene.view.fitted)) continue;
+  for (const [k, fit] of scene.fits().entries()) {
+    if (!fit || !scene.shape) continue;
+    // Where nodes lie close on the screen they are smaller, and gone before they hide the curve.
+    const apart = (scene.shape.outlines[k].length * scale) / fit.turns.length;
+    if (apart < 3) continue;
+    const size = Math.min(1, 0.35 + apart / 40);
     const [round, square] = [new Path2D(), new Path2D()];
-    const [r, s] = [3.6 / scale, 4 / scale];
+    const [r, s] = [(3.6 * size) / scale, (4 * size) / scale];
+    c.lineWidth = (1.6 * size) / scale;
     for (let i = 0; i < fit.turns.length; i++) {
       const [x, y] = [fit.nodes[2 * i], fit.nodes[2 * i + 1]];
       if (fit.turns[i]) square.rect(x - s, y - s, 2 * s, 2 * s);

@@ -164,8 +164,9 @@ export class App {
     }
     this.trouble("");
     // Of a new document something is seen at once: a draft goes before the whole.
-    if (!this.fitter.fits.length) this.fitter.ask(this.store.now, this.scene.outline, true);
-    this.fitter.ask(this.store.now, this.scene.outline, draft);
+    const isNew = !this.fitter.fits.length;
+    if (isNew) this.fitter.ask(this.store.now, this.scene.outline, true);
+    this.fitter.ask(this.store.now, this.scene.outline, draft, isNew);
     if (!draft) this.compare.follow();
   }
 

@@ -148,7 +148,7 @@ export class Panel {
       const one = outlines[k];
       const fit = fitter.fits[k];
       const words = [`${k + 1}`, one.hole ? "hole" : one.closed ? "outline" : "open",
-        fit ? `${one.n_points.toLocaleString("en")} → ${fit.n_stored_points}` : one.n_points.toLocaleString("en")];
+        fit ? `${one.n_points.toLocaleString("en")} → ${fit.n_stored_points.toLocaleString("en")}` : one.n_points.toLocaleString("en")];
       [...item.children].forEach((cell, i) => { if (cell.textContent !== words[i]) cell.textContent = words[i]; });
       item.setAttribute("aria-selected", String(k === scene.outline));
     });

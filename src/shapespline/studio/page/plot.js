@@ -58,7 +58,7 @@ export class Plot {
     c.textAlign = "right";
     c.textBaseline = "middle";
     const value = (/** @type {number} */ v) => (this.log ? 10 ** v : v);
-    for (const v of steps(low, high, Math.max(2, Math.floor((this.height - TOP - BOTTOM) / 26)))) {
+    for (const v of steps(low, high, Math.max(2, Math.floor((this.height - TOP - BOTTOM) / 19)))) {
       const py = this.at(0, value(v))[1];
       c.beginPath();
       c.moveTo(LEFT, py);
