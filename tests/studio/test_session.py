@@ -11,7 +11,7 @@ import shapespline as ss
 from shapespline.studio.asked import Asked
 from shapespline.studio.documents import opened
 from shapespline.studio.examples import EXAMPLES, example_bytes
-from shapespline.studio.fits import fitted, splprep_fit
+from shapespline.studio.fits import fitted, splprep_fit, whole
 from shapespline.studio.jobs import Lane, Ticket
 from shapespline.studio.messages import packed, unpacked
 from shapespline.studio.outputs import command_line, encoded, python_text, settings_text
@@ -173,6 +173,16 @@ def test_text_makes_the_same_fit_again(tmp_path, monkeypatch, shapespline):
     assert (tmp_path / "scan_fit.svg").read_bytes() != expected
     with pytest.raises(ss.InvalidInputError, match="copy the Python"):
         command_line(own)
+
+
+def test_areas_of_colours_share_their_borders():
+    document = opened("gear.png", example_bytes("gear"), {"colors": 2})
+    asked = Asked.of({"settings": {"tolerance": 1.0}}, document)
+    assert "shared_boundaries=True" in python_text(asked)
+    fits = whole(asked, Ticket(1)).fits
+    ends = [{tuple(end) for piece in fit.pieces for end in piece.control_points} for fit in fits]
+    # A hole of the ink is an area of the ground: the same curve, to the bit.
+    assert any(a == b for k, a in enumerate(ends) for b in ends[:k])
 
 
 def test_the_paper_is_told_step_by_step(page):

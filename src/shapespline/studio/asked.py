@@ -74,6 +74,12 @@ class Asked:
         """Whether `fit_shape` answers: nothing is asked of single outlines."""
         return not self.own and self.common.keys() <= OF_SHAPES
 
+    @property
+    def shared_boundaries(self) -> bool:
+        """Whether boundaries are fitted once, as the command line does for areas of colours."""
+        within = self.common.get("tolerance") is not None and not self.common.get("outliers")
+        return within and any(self.document.shape.colors)
+
     def settings(self, index: int) -> Settings:
         """The settings of an outline."""
         contour, options = self.document.shape.contours[index], dict(self.common)

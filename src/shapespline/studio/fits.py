@@ -68,7 +68,8 @@ def whole(asked: Asked, ticket: Ticket) -> Drawing:
     shape = asked.document.shape
     if asked.is_plain:
         options = {"time_limit": MOST_SECONDS, **asked.common}
-        return fit_shape(shape, callback=ticket.check, **options)
+        shared = asked.shared_boundaries
+        return fit_shape(shape, callback=ticket.check, shared_boundaries=shared, **options)
     fits = [fitted(asked, index, ticket) for index in range(len(shape))]
     return Drawing(fits, shape.parents, shape.frame, shape.unit, colors=shape.colors)
 

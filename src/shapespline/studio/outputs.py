@@ -98,6 +98,8 @@ def python_text(asked: Asked) -> str:
     else:
         lines += ["shape = found"]
     if not asked.own:
+        if asked.shared_boundaries:
+            common = {**common, "shared_boundaries": True}
         lines += [f"drawing = ss.fit_shape(shape, {_arguments(common)})"]
     else:
         lines += [f"settings = dict({_arguments(common)})", "contours = list(shape)", "fits = []"]
