@@ -12,7 +12,8 @@ def browser():
     from benchmarks.studio import browser_path, browsing
 
     if browser_path() is None:
-        if os.environ.get("CI"):
+        # One who may install a browser has to; on other machines these tests are left out.
+        if os.environ.get("CI") and getattr(os, "geteuid", int)() == 0:
             pytest.fail("CI needs a browser: run sh scripts/browser.sh python")
         pytest.skip("there is no browser: sh scripts/browser.sh python looks for one")
     with browsing() as found:

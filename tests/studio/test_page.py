@@ -12,6 +12,7 @@ import pytest
 from benchmarks.studio import DONE, dragged, give, opened, soak, until
 
 import shapespline as ss
+from shapespline.formats import readable
 from shapespline.studio.documents import MOST_BYTES
 
 pytestmark = pytest.mark.slow
@@ -231,8 +232,8 @@ def test_every_format_is_written_and_read_back(page):
         assert download.value.suggested_filename == f"plate_fit{ending}"
         if ending == ".py":
             compile(content, "plate", "exec")
-        elif ending == ".pdf":
-            assert content.startswith(b"%PDF")
+        elif ending not in readable():
+            assert len(content) > 200, ending
         else:
             back = ss.read(io.BytesIO(content), format=ending)
             assert len(back) == fits, ending

@@ -9,7 +9,8 @@ const COPIES = [["svg", "SVG"], ["python", "Python"], ["command", "Command line"
   ["view", "Picture of the view"], ["session", "This session as a file"]];
 /** @type {Object<string, string>} */
 const NAMES = { ".svg": "SVG", ".dxf": "DXF", ".pdf": "PDF", ".json": "JSON, with the fit", ".step": "STEP", ".igs": "IGES",
-  ".3dm": "3dm of Rhino", ".csv": "CSV, points on the curve", ".geojson": "GeoJSON", ".png": "PNG", ".py": "Python" };
+  ".3dm": "3dm of Rhino", ".csv": "CSV, points on the curve", ".geojson": "GeoJSON", ".png": "PNG", ".py": "Python", ".nc": "G-code",
+  ".glif": "GLIF, a glyph of a font" };
 
 export class Files {
   /** @param {import("./main.js").App} app */
