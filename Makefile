@@ -26,6 +26,7 @@ demo: $(READY)
 	@echo "Look into demo-output: SVG opens in a browser or in Inkscape, DXF in CAD; the pictures show the error."
 
 test: lint
+	@sh scripts/browser.sh $(BIN)/python
 	$(BIN)/python -m pytest -q -n logical --dist worksteal
 
 quick: $(READY)
@@ -56,6 +57,7 @@ figures: $(READY)
 	$(BIN)/python -m benchmarks.picture_options
 	$(BIN)/python -m benchmarks.picture_peers
 	$(BIN)/python -m benchmarks.engine_figures
+	$(BIN)/python -m benchmarks.studio --figures
 	$(BIN)/python scripts/rooms_picture.py
 
 docs: $(READY)

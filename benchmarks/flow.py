@@ -36,6 +36,7 @@ RANKS = {
     "fitting": 6,
     "paper": 7,
     "cli": 8,
+    "studio": 8,
     "face": 9,
 }
 

@@ -31,6 +31,7 @@ SAYS = {
     "fitting": ("request, plan, solve,", "verify, choose, repair"),
     "paper": ("the published method", ""),
     "cli": ("commands", ""),
+    "studio": ("local page: see, steer,", "take away"),
 }
 # Column and row of each room, the lowest row first: so that no arrow passes behind a room.
 PLACES = {
@@ -50,6 +51,7 @@ PLACES = {
     "fitting": (1.6, 6),
     "paper": (2.4, 7),
     "cli": (2.9, 8),
+    "studio": (1.9, 8),
 }
 COLORS = ("#EDEDED", "#E8F1FA", "#E3F3EC", "#E3F3EC", "#FFF4DC", "#FBE6DA", "#F6E3F0")
 WIDTH, HEIGHT, ACROSS, DOWN, MARGIN = 176, 62, 216, 104, 20

@@ -48,6 +48,7 @@ def checks(examples: Path) -> dict[str, bool]:
         "the package is an installed one": "site-packages" in str(ss.__file__),
         "the command line": called("fit", "logo.png") and Path("logo.svg").exists(),
         "the doctor": called("doctor"),
+        "the studio's page": (Path(ss.__file__).parent / "studio/page/index.html").exists(),
         "a shape": all(one.kept for one in drawing) and len(drawing) == 2,
         "a curve": fit.kept and fit.n_stored_points < 60,
         "formats": all(Path(f"logo_again.{ending}").stat().st_size > 0 for ending in WRITTEN),

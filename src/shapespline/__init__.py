@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from shapespline.geometry import Comparison
     from shapespline.paper import LITERAL, SENSIBLE, InitialCurve, Reading, initial_curve
     from shapespline.streaming import FootParameters, LargeFit
+    from shapespline.studio import open_studio
     from shapespline.tracing import trace
     from shapespline.values import (
         Arc,
@@ -82,6 +83,7 @@ _HOME = {
     "fit_many": "fitting",
     "fit_shape": "fitting",
     "initial_curve": "paper",
+    "open_studio": "studio",
     "optimize": "fitting",
     "order_points": "analysis",
     "read": "formats",
@@ -127,6 +129,7 @@ __all__ = [
     "fit_many",
     "fit_shape",
     "initial_curve",
+    "open_studio",
     "optimize",
     "order_points",
     "read",

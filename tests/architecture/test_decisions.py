@@ -26,6 +26,7 @@ PREFIXES = [
     "PKG",
     "SPL",
     "STR",
+    "STU",
     "TRC",
     "VAL",
 ]

@@ -33,8 +33,10 @@ MAY_IMPORT = {
     "paper": GROUND
     | ENGINES
     | {"values", "geometry", "analysis", "solvers", "formats", "plotting", "fitting"},
+    # The command that starts the studio asks the face for it: the two never import each other.
     "cli": GROUND
     | {"", "values", "geometry", "analysis", "tracing", "formats", "plotting", "fitting", "paper"},
+    "studio": GROUND | {"values", "geometry", "analysis", "formats", "fitting", "paper"},
 }
 # Single arrows beside the table: file -> room.
 ALSO = {("formats/image.py", "tracing"), ("__main__.py", "cli"), ("__main__.py", "_version")}
@@ -159,5 +161,5 @@ def test_a_room_names_what_it_offers(room):
 def test_the_house_has_few_rooms():
     top = [path for path in PACKAGE.iterdir() if path.suffix != ".so" and path.name[0] != "."]
     folders = [path for path in top if path.is_dir() and path.name != "__pycache__"]
-    assert len(folders) <= 13
+    assert len(folders) <= 14
     assert len(top) - len([p for p in top if p.is_dir()]) <= 10

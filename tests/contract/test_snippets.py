@@ -29,9 +29,10 @@ PAGES = sorted(
         ),
     ]
 )
-# What needs another program, a cluster, or minutes, is not run.
+# What needs another program, a cluster, or minutes, or waits for somebody, is not run.
 ELSEWHERE = re.compile(
-    r"\||tcp://|--(?:install|show)-completion|^pip |^make |^python -m benchmarks|^shapespline paper"
+    r"\||tcp://|--(?:install|show)-completion|^pip |^make |^python -m benchmarks"
+    r"|^shapespline (?:paper|studio)"
 )
 # A curve that keeps less than it was asked for is no failure of a page, but a failed call is.
 GOOD = (0,)

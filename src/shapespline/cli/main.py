@@ -8,7 +8,7 @@ from typing import Annotated, cast
 import typer
 
 import shapespline as ss
-from shapespline.cli import curve_files, describe, doctor, fit, paper
+from shapespline.cli import curve_files, describe, doctor, fit, paper, studio
 from shapespline.cli.panels import PanelCommand, closing
 from shapespline.cli.reports import say
 
@@ -64,6 +64,13 @@ EXAMPLES = {
         "shapespline paper leaf.png --length 8 -o figures/",
         "shapespline paper profile.csv --literal -o figures/",
         "shapespline paper profile.csv --degree 2 -o figures/",
+    ),
+    studio.studio: (
+        "shapespline studio",
+        "shapespline studio logo.png",
+        "shapespline studio profile.csv",
+        "shapespline studio drawing.dxf",
+        "shapespline studio --port 8765 --no-browser",
     ),
     doctor.doctor: ("shapespline doctor",),
 }

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from shapespline.fitting import Settings
 
-# Of the file: a later program may read it otherwise.
-VERSION = 1
 GOALS = ("tolerance", "n_control_points")
 # Options of a fit that no command can say are not in a file either.
 NAMES = (
@@ -31,6 +29,8 @@ def load(path: Path) -> dict[str, Any]:
     FormatError
         If the file is missing, no TOML or JSON, of another version, or names an unknown option.
     """
+    from shapespline.fitting import SETTINGS_VERSION
+
     try:
         text = path.read_text(encoding="utf-8")
         found = json.loads(text) if path.suffix.lower() == ".json" else tomllib.loads(text)
@@ -43,10 +43,10 @@ def load(path: Path) -> dict[str, Any]:
         raise ss.FormatError(
             f"{path}: settings are names with values, got a {type(found).__name__}"
         )
-    version = found.pop("version", VERSION)
-    if version != VERSION:
+    version = found.pop("version", SETTINGS_VERSION)
+    if version != SETTINGS_VERSION:
         raise ss.FormatError(
-            f"{path}: settings of version {version}; this program reads version {VERSION}:"
+            f"{path}: settings of version {version}; this program reads version {SETTINGS_VERSION}:"
             " save them again with --save-settings"
         )
     for name in found:
@@ -80,12 +80,7 @@ def save(path: Path, settings: Settings) -> None:
     """
     from shapespline.formats import write_atomically
 
-    found = {"version": VERSION, **settings.to_dict()}
-    if "corners" in found and found["corners"] is None:
-        found["corners"] = "none"
+    text = settings.to_toml()
     if path.suffix.lower() == ".json":
-        text = json.dumps(found, indent=2) + "\n"
-    else:
-        # JSON's numbers, booleans and plain strings are TOML's, too.
-        text = "".join(f"{name} = {json.dumps(value)}\n" for name, value in found.items())
+        text = json.dumps(tomllib.loads(text), indent=2) + "\n"
     write_atomically(path, text.encode("utf-8"))

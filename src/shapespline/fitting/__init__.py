@@ -6,11 +6,12 @@ from shapespline.fitting.many import Batch, fit_many
 from shapespline.fitting.offset import offset_drawing
 from shapespline.fitting.optimization import optimize
 from shapespline.fitting.request import Request
-from shapespline.fitting.settings import Settings
+from shapespline.fitting.settings import SETTINGS_VERSION, Settings
 from shapespline.fitting.shape import fit_shape
 from shapespline.fitting.verify import verified_fit
 
 __all__ = [
+    "SETTINGS_VERSION",
     "Batch",
     "Request",
     "Settings",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
     from shapespline.values import Contour
 
 DEFAULT_METHOD = "levenberg-marquardt"
+# Of settings in a file: a later program may read them otherwise.
+SETTINGS_VERSION = 1
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -223,6 +226,22 @@ class Settings:
                 and value == type(self).__dataclass_fields__[name].default
             )
         }
+
+    def to_toml(self) -> str:
+        """The text of a file of settings: its version, and what differs from the defaults.
+
+        Examples
+        --------
+        >>> print(Settings(tolerance=0.5, corners=None).to_toml(), end="")
+        version = 1
+        tolerance = 0.5
+        corners = "none"
+        """
+        found = {"version": SETTINGS_VERSION, **self.to_dict()}
+        if "corners" in found and found["corners"] is None:
+            found["corners"] = "none"
+        # JSON's numbers, booleans and plain strings are TOML's, too.
+        return "".join(f"{name} = {json.dumps(value)}\n" for name, value in found.items())
 
     @classmethod
     def from_dict(cls, options: Mapping[str, Any]) -> Settings:
