@@ -91,7 +91,10 @@ EXPECTED = {
     # What least squares make has no lines and arcs; noise between those is smoothed with the rest.
     **dict.fromkeys(
         [
-            *(("character", goal) for goal in ("of size", "estimate, weighted")),
+            *(
+                ("character", goal)
+                for goal in ("of size", "estimate, weighted", "estimate, measured")
+            ),
             *(("character", goal) for goal in DATA if goal.endswith("one spline")),
             *(("regularities", goal) for goal in DATA),  # beside character="drawn" only
         ],

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageDraw
 from tests.support.places import DATA, ROOT
 
 if TYPE_CHECKING:
@@ -38,6 +38,9 @@ def laid_out(folder: Path) -> Path:
     ground.paste("#c81e1e", (60, 12, 84, 80))
     ground.paste("#e0a010", (12, 80, 84, 90))
     ground.save(folder / "colours.png")
+    circuit = Image.new("L", (96, 96), 255)
+    ImageDraw.Draw(circuit).line([(10, 48), (48, 48), (48, 12), (86, 12)], fill=0, width=4)
+    circuit.save(folder / "circuit.png")
     (folder / "scans").mkdir()
     (folder / "scans" / "a.csv").write_bytes((folder / "scan.csv").read_bytes())
     with Image.open(folder / "leaf.png") as leaf:

@@ -56,8 +56,9 @@ struct OutlineSearch {
                 const auto [at, fresh] = fits.try_emplace({step.from, step.to, step.extension});
                 if (fresh) {
                     at->second = fit(extensions[step.extension].cost, step);
+                    const bool asked = nodes[step.from].required || nodes[step.to].required;
                     at->second.kept = at->second.kept &&
-                                      fairness.is_fair(at->second.sections.front());
+                                      (asked || fairness.is_fair(at->second.sections.front()));
                 }
                 if (!at->second.kept) {
                     shorten(extensions[step.extension], step);

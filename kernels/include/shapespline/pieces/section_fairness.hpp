@@ -45,9 +45,15 @@ class SectionFairness {
     }
 
   private:
+    // A direction that was asked for may need a turn that the data have not: beside it all is fair.
     long n_unfair(std::span<const Section> sections) {
-        return std::count_if(sections.begin(), sections.end(),
-                             [&](const Section &s) { return !is_fair(s); });
+        long count = 0;
+        for (std::size_t i = 0; i < sections.size(); ++i) {
+            const bool asked = sections[i].required ||
+                               (i + 1 < sections.size() && sections[i + 1].required);
+            count += !asked && !is_fair(sections[i]);
+        }
+        return count;
     }
 
     // Samples of a span, and how often they are halved where it bends.
