@@ -18,9 +18,19 @@ class Regularity(NamedTuple):
         How far the data alone were from it: degrees for directions, otherwise data units.
     order : int
         Of a rotation: how many turns there are; 1 for what has none.
+
+    Examples
+    --------
+    >>> print(Regularity("rotation", (0, 1, 2, 3), 0.0005, order=4))
+    4-fold rotation, 4 pieces, off by 0.0005 before
     """
 
     name: str
     pieces: tuple[int, ...]
     off: float
     order: int = 1
+
+    def __str__(self) -> str:
+        name = f"{self.order}-fold {self.name}" if self.name == "rotation" else self.name
+        count = f"{len(self.pieces)} piece{'s' if len(self.pieces) > 1 else ''}"
+        return f"{name}, {count}, off by {abs(self.off):.3g} before"

@@ -74,7 +74,7 @@ export class Panel {
       list.id = `word-${name}`;
       list.addEventListener("change", () => this.app.store.change({ words: { ...this.app.store.now.words, [name]: list.value } }));
       const text = document.createElement("span");
-      text.textContent = name;
+      text.textContent = capital(name);
       label.append(text, list);
       return label;
     }));
