@@ -35,13 +35,15 @@ def fuzzed(ending: str, first: int, seconds: float) -> tuple[Counter[str], dict[
             said, code = (hung.stdout or b"").decode(), -9
         lines = [line.split(" ", 2) for line in said.splitlines() if line[:1].isdigit()]
         for number, *words in lines:
-            counts[words[0]] += 1
+            # A library in C++ that hangs hears no alarm before it is back: not ours to promise.
+            hung = ending in EXTRAS and words[1:] == [f"more than {SECONDS:.0f} s"]
+            counts["library" if hung else words[0]] += 1
             if words[0] == "FAULT":
                 faults.setdefault(re.sub(r"\d+", "0", words[1])[:90], int(number))
         begun = re.findall(r"^reading (\d+)", said, re.MULTILINE)
         if code:
-            # A library in C++ that dies takes the process along: counted, not ours to promise.
-            counts["ended" if ending in EXTRAS else "FAULT"] += 1
+            # Nor is one that dies and takes the process along.
+            counts["library" if ending in EXTRAS else "FAULT"] += 1
             last = int(begun[-1]) if begun else seed
             faults.setdefault(f"the process ended with {code}", last)
         seed = int(begun[-1]) + 1 if begun else seed + 1
@@ -56,12 +58,12 @@ def main() -> int:
     parser.add_argument("--format", choices=endings(), help="this one only")
     asked = parser.parse_args()
     wanted = [asked.format] if asked.format else list(endings())
-    print("| format | files | read | refused in a sentence | faults | the process ended |")
+    print("| format | files | read | refused in a sentence | faults | its library hung or died |")
     print("|---" * 6 + "|")
     wrong = 0
     for ending in wanted:
         counts, faults = fuzzed(ending, asked.seed, 60 * asked.minutes / len(wanted))
-        row = (counts.total(), counts["read"], counts["said"], counts["FAULT"], counts["ended"])
+        row = (counts.total(), counts["read"], counts["said"], counts["FAULT"], counts["library"])
         print(f"| {ending} | " + " | ".join(map(str, row)) + " |", flush=True)
         wrong += counts["FAULT"]
         for words, seed in faults.items():
