@@ -14,7 +14,8 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter
 
 import shapespline as ss
-from benchmarks.howto_figures import ORANGE, canvas, save
+from benchmarks.figure_style import save
+from benchmarks.howto_figures import ORANGE, TARGET, canvas
 from shapespline.tracing import trace_colors, trace_image
 
 if TYPE_CHECKING:
@@ -115,7 +116,7 @@ def main() -> None:
         one.set_aspect("equal")
         one.axis("off")
         show(one, *panel)
-    save(figure, "pictures")
+    save(figure, TARGET / "pictures.png", dpi=80)
 
 
 if __name__ == "__main__":

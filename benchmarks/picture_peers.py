@@ -24,7 +24,8 @@ from matplotlib.path import Path as Outline
 from PIL import Image, ImageDraw, ImageFont
 
 import shapespline as ss
-from benchmarks.howto_figures import canvas, save
+from benchmarks.figure_style import save
+from benchmarks.howto_figures import TARGET, canvas
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -125,7 +126,7 @@ def main() -> None:
     for axes in panels:
         axes.set(xlim=(0, SIZE[0]), ylim=(0, SIZE[1]), aspect="equal")
         axes.axis("off")
-    save(figure, "pictures_peers")
+    save(figure, TARGET / "pictures_peers.png", dpi=80)
 
 
 if __name__ == "__main__":
