@@ -14,6 +14,7 @@ from tests.support.desk import laid_out
 from tests.support.shapes import flower
 
 import shapespline as ss
+from shapespline.cli import settings_file
 from shapespline.cli import help_pages, waiting
 
 
@@ -80,6 +81,9 @@ def test_settings_are_saved_and_used_again(shapespline, desk):
         'version = 1\ntolerance = "0.5%"\ncorners = "none"\neffort = "fast"\n'
     )
     assert json.loads((desk / "job.json").read_text())["corners"] == "none"
+    drawn = ("--character", "drawn", "--regularities", "none")
+    shapespline("fit", "scan.csv", *drawn, "--save-settings", "drawn.toml", "-o", "a.json")
+    assert settings_file.load(desk / "drawn.toml")["regularities"] is None
 
 
 @pytest.mark.parametrize(

@@ -52,8 +52,9 @@ def load(path: Path) -> dict[str, Any]:
     for name in found:
         if name not in NAMES:
             raise ss.FormatError(f"{path}: {name} is no setting; these are: {', '.join(NAMES)}")
-    if found.get("corners") == "none":
-        found["corners"] = None
+    for name in ("corners", "regularities"):
+        if found.get(name) == "none":
+            found[name] = None
     return found
 
 

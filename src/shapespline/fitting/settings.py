@@ -185,16 +185,16 @@ class Settings:
         if self._one_spline:
             raise InvalidInputError(
                 "character='drawn' does not act where one spline is made: leave form='spline',"
-                " n_control_points and weights out"
+                " n_control_points, weights, sigma and loss out"
             )
         if self.corners is None or not isinstance(self.corners, str) or self.corners == "free":
             raise InvalidInputError(
                 "character='drawn' finds corners itself: leave corners='auto' as it is"
             )
-        if self._has("end_tangents", "through", "symmetric", "weights") or self.ends == "fixed":
+        if self._has("end_tangents", "through", "symmetric") or self.ends == "fixed":
             raise InvalidInputError(
-                "character='drawn' keeps what was drawn: leave end_tangents, through, symmetric,"
-                " weights and ends='fixed' out"
+                "character='drawn' keeps what was drawn: leave end_tangents, through, symmetric"
+                " and ends='fixed' out"
             )
 
     @property
@@ -220,9 +220,8 @@ class Settings:
         return {
             name: plain(value)
             for name, value in said.items()
-            if not (value is None and name != "corners")
-            and not (
-                isinstance(value, str | int | float)
+            if not (
+                isinstance(value, str | int | float | None)
                 and value == type(self).__dataclass_fields__[name].default
             )
         }
@@ -238,10 +237,11 @@ class Settings:
         corners = "none"
         """
         found = {"version": SETTINGS_VERSION, **self.to_dict()}
-        if "corners" in found and found["corners"] is None:
-            found["corners"] = "none"
-        # JSON's numbers, booleans and plain strings are TOML's, too.
-        return "".join(f"{name} = {json.dumps(value)}\n" for name, value in found.items())
+        # JSON's numbers, booleans and plain strings are TOML's, too; it has no word for None.
+        return "".join(
+            f"{name} = {json.dumps('none' if value is None else value)}\n"
+            for name, value in found.items()
+        )
 
     @classmethod
     def from_dict(cls, options: Mapping[str, Any]) -> Settings:

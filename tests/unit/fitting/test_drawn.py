@@ -98,12 +98,16 @@ def test_settings_survive_a_dictionary_and_bad_ones_are_refused():
 
     asked = Settings(tolerance=0.1, character="drawn", regularities=["mirror"])
     assert Settings.from_dict(asked.to_dict()).regularities == ("mirror",)
+    none = Settings(tolerance=0.1, character="drawn", regularities=None)
+    assert Settings.from_dict(none.to_dict()).regularities is None
+    assert 'regularities = "none"\n' in none.to_toml()
     request = Request.of(rounded_box(), True, asked)
     again = Request.from_dict(request.to_dict())
     assert (again.style.character, again.style.regularities) == ("drawn", ("mirror",))
     for options, words in (
         ({"character": "sketched"}, "character must be one of drawn, fewest"),
         ({"character": "drawn", "form": "spline"}, "does not act where one spline"),
+        ({"character": "drawn", "tolerance": None, "sigma": 0.1}, "leave .* sigma and loss out"),
         ({"character": "drawn", "corners": "free"}, "finds corners itself"),
         ({"character": "drawn", "symmetric": True}, "keeps what was drawn"),
         ({"character": "drawn", "ends": "fixed"}, "keeps what was drawn"),
@@ -113,4 +117,4 @@ def test_settings_survive_a_dictionary_and_bad_ones_are_refused():
         ({"character": "drawn", "regularities": 3}, "some of tangent, rotation"),
     ):
         with pytest.raises(ss.InvalidInputError, match=words):
-            Settings(tolerance=0.1, **options)
+            Settings(**{"tolerance": 0.1} | options)
