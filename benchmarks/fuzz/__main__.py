@@ -10,12 +10,12 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from benchmarks.fuzz.child import SECONDS
+from benchmarks.fuzz.child import calls_library
 from benchmarks.fuzz.mutate import mutated
-from benchmarks.fuzz.seeds import EXTRAS, endings, sound
+from benchmarks.fuzz.seeds import endings, sound
 
-# A child that says nothing for longer than its alarm hangs where no alarm is heard.
-SILENCE = 3 * SECONDS
+# Of what faulthandler writes when a process ends: the file of the innermost frame of Python.
+INNERMOST = re.compile(r'\(most recent call first\):\n\s+File "([^"]+)"')
 FOLDER = Path("bench-output/fuzz")
 
 
@@ -26,26 +26,19 @@ def fuzzed(ending: str, first: int, seconds: float) -> tuple[Counter[str], dict[
     until, seed = time.monotonic() + seconds, first
     while (left := until - time.monotonic()) > 0:
         command = [sys.executable, "-m", "benchmarks.fuzz.child", ending, str(seed), str(left)]
-        try:
-            done = subprocess.run(
-                command, capture_output=True, text=True, check=False, timeout=left + SILENCE
-            )
-            said, code = done.stdout, done.returncode
-        except subprocess.TimeoutExpired as hung:
-            said, code = (hung.stdout or b"").decode(), -9
-        lines = [line.split(" ", 2) for line in said.splitlines() if line[:1].isdigit()]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        lines = [line.split(" ", 2) for line in done.stdout.splitlines() if line[:1].isdigit()]
         for number, *words in lines:
-            # A library in C++ that hangs hears no alarm before it is back: not ours to promise.
-            hung = ending in EXTRAS and words[1:] == [f"more than {SECONDS:.0f} s"]
-            counts["library" if hung else words[0]] += 1
+            counts[words[0]] += 1
             if words[0] == "FAULT":
                 faults.setdefault(re.sub(r"\d+", "0", words[1])[:90], int(number))
-        begun = re.findall(r"^reading (\d+)", said, re.MULTILINE)
-        if code:
-            # Nor is one that dies and takes the process along.
-            counts["library" if ending in EXTRAS else "FAULT"] += 1
+        begun = re.findall(r"^reading (\d+)", done.stdout, re.MULTILINE)
+        if done.returncode:
+            # A library that dies, or does not come back, takes the process along.
+            innermost = INNERMOST.findall(done.stderr)
+            counts["library" if innermost and calls_library(innermost[0]) else "FAULT"] += 1
             last = int(begun[-1]) if begun else seed
-            faults.setdefault(f"the process ended with {code}", last)
+            faults.setdefault(f"the process ended with {done.returncode}", last)
         seed = int(begun[-1]) + 1 if begun else seed + 1
     return counts, faults
 

@@ -10,6 +10,7 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
+from benchmarks.fuzz import child
 from benchmarks.fuzz.__main__ import fuzzed
 from benchmarks.fuzz.child import outcome
 from benchmarks.fuzz.mutate import mutated
@@ -214,6 +215,43 @@ def test_the_fuzzer_sees_what_is_wrong(monkeypatch):
     assert outcome(b"0,0", "csv").startswith("FAULT nothing was read")
     assert mutated([b"12,3"], "csv", 5) == mutated([b"12,3"], "csv", 5)
     assert len({mutated([b"12,3"], "csv", seed) for seed in range(30)}) > 10
+
+
+def test_the_fuzzer_tells_a_slow_reader_from_a_library_that_hangs(monkeypatch):
+    def taking(file, source):
+        held = {}
+        exec(compile(source, file, "exec"), held)
+        return held["read"]
+
+    # One call in C, here of half a second or so, and a loop of short ones.
+    call = "def read(data, format):\n    return [sum(range(30_000_000))]"
+    loop = "def read(data, format):\n    return [sum(range(9)) for _ in range(10_000_000)]"
+    monkeypatch.setattr(child, "SECONDS", 0.2)
+    monkeypatch.setattr(child, "TICK", 0.03)
+    found = []
+    for file, source in (("occ.py", call), ("occ.py", loop), ("csv.py", call)):
+        monkeypatch.setattr(ss, "read", taking(f"/x/formats/{file}", source))
+        found.append(outcome(b"0,0", "step"))
+    slow = "FAULT more than 0 s"
+    assert found == ["library", slow, slow]
+
+
+# Where a process that ends stood is told by its innermost frame of Python.
+END = """
+import faulthandler, os
+faulthandler.enable()
+print("reading 7", flush=True)
+exec(compile("def read(): os.abort()", {file!r}, "exec"), globals())
+read()
+"""
+
+
+@pytest.mark.parametrize(("file", "blamed"), [("occ.py", "library"), ("svg_tree.py", "FAULT")])
+def test_the_fuzzer_tells_whose_end_it_was(monkeypatch, file, blamed):
+    code, run = END.format(file=f"/x/formats/{file}"), subprocess.run
+    monkeypatch.setattr(subprocess, "run", lambda _, **how: run([sys.executable, "-c", code], **how))
+    counts, faults = fuzzed("step", first=7, seconds=1e-3)
+    assert (set(counts), set(faults.values())) == ({blamed}, {7})
 
 
 def test_json_of_absurd_depth_and_size(tmp_path):
