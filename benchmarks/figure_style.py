@@ -20,7 +20,10 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
     from shapespline.values import Contour, Piece
 
-OUTLINES = Path(__file__).parent.parent / "examples" / "data" / "outlines"
+ROOT = Path(__file__).parent.parent
+OUTLINES = ROOT / "examples" / "data" / "outlines"
+# Where the pictures of docs/engines are.
+ENGINES = ROOT / "docs" / "figures" / "engines"
 BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
 GREY, PALE, INK = "#8A8A8A", "#D0D0D0", "#333333"
 KINDS = {"line": GREEN, "bezier": BLUE, "spline": RED}

@@ -28,11 +28,11 @@ from tests.support import sizes
 
 import shapespline as ss
 from benchmarks.peers import polyline_points, splprep_points
-from benchmarks.worst_fits import draw_worst
+from benchmarks.worst_fits import draw_fit
 from checks import turns, two_sided
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping, Sequence
 
 ROOT = Path(__file__).parent.parent
 OWN = ROOT / "examples" / "data" / "outlines"
@@ -201,6 +201,25 @@ def _at_every_tolerance(outline: Outline, *, peers: bool, **options: object) -> 
 def worst(rows: list[Row], count: int = 10) -> list[Row]:
     """Fits with the most points against the better peer, the worst first."""
     return sorted(rows, key=lambda row: -row.n_points / min(row.splprep, row.polyline))[:count]
+
+
+def draw_worst(
+    rows: Sequence[Row], contours: Mapping[str, ss.Contour], folder: Path, **options: object
+) -> list[Path]:
+    """One picture for each row, named after its rank and outline; the paths."""
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = []
+    for rank, row in enumerate(rows, start=1):
+        contour = contours[row.name]
+        fit = ss.fit_curve(contour, tolerance=row.percent / 100 * contour.box_diagonal, **options)
+        path = folder / f"{rank:02d}_{row.name}_{row.percent:g}.png"
+        title = (
+            f"{row.category}/{row.name} at {row.percent:g} %: {row.n_points} points"
+            f" (splprep {row.splprep:.0f}, polyline {row.polyline:.0f})"
+        )
+        draw_fit(fit, title).savefig(path, dpi=100)
+        paths.append(path)
+    return paths
 
 
 def main(arguments: list[str] | None = None) -> None:

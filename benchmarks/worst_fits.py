@@ -7,36 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
-import shapespline as ss
-
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from pathlib import Path
-
-    from benchmarks.quality import Row
+    import shapespline as ss
 
 # Width of the enlarged place, in parts of the box diagonal.
 ENLARGED = 0.12
 BLUE, ORANGE, GREY = "#0072B2", "#D55E00", "#8A8A8A"
-
-
-def draw_worst(
-    rows: Sequence[Row], contours: Mapping[str, ss.Contour], folder: Path, **options: object
-) -> list[Path]:
-    """One picture for each row, named after its rank and outline; the paths."""
-    folder.mkdir(parents=True, exist_ok=True)
-    paths = []
-    for rank, row in enumerate(rows, start=1):
-        contour = contours[row.name]
-        fit = ss.fit_curve(contour, tolerance=row.percent / 100 * contour.box_diagonal, **options)
-        path = folder / f"{rank:02d}_{row.name}_{row.percent:g}.png"
-        title = (
-            f"{row.category}/{row.name} at {row.percent:g} %: {row.n_points} points"
-            f" (splprep {row.splprep:.0f}, polyline {row.polyline:.0f})"
-        )
-        draw_fit(fit, title).savefig(path, dpi=100)
-        paths.append(path)
-    return paths
 
 
 def draw_fit(fit: ss.Fit, title: str) -> Figure:

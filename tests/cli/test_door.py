@@ -14,8 +14,7 @@ from tests.support.desk import laid_out
 from tests.support.shapes import flower
 
 import shapespline as ss
-from shapespline.cli import settings_file
-from shapespline.cli import help_pages, waiting
+from shapespline.cli import help_pages, settings_file, waiting
 
 
 @pytest.fixture

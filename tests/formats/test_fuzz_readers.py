@@ -249,7 +249,9 @@ read()
 @pytest.mark.parametrize(("file", "blamed"), [("occ.py", "library"), ("svg_tree.py", "FAULT")])
 def test_the_fuzzer_tells_whose_end_it_was(monkeypatch, file, blamed):
     code, run = END.format(file=f"/x/formats/{file}"), subprocess.run
-    monkeypatch.setattr(subprocess, "run", lambda _, **how: run([sys.executable, "-c", code], **how))
+    monkeypatch.setattr(
+        subprocess, "run", lambda _, **how: run([sys.executable, "-c", code], **how)
+    )
     counts, faults = fuzzed("step", first=7, seconds=1e-3)
     assert (set(counts), set(faults.values())) == ({blamed}, {7})
 
