@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import io
 import tokenize
+from functools import cache
 
 from tests.support.each import each
 from tests.support.sources import MODULES, text_of
@@ -26,16 +27,19 @@ FILLING = {
 }
 
 
-def too_large(source):
-    """(line, name, lines of code, positional parameters) of functions beyond the limits."""
-    lines = source.splitlines()
-    code_lines = {
+def _code_lines(source):
+    return {
         line
         for token in tokenize.generate_tokens(io.StringIO(source).readline)
         if token.type not in FILLING
         for line in range(token.start[0], token.end[0] + 1)
     }
-    found = []
+
+
+def too_large(source):
+    """(line, name, lines of code, positional parameters) of functions beyond the limits."""
+    lines, found = source.splitlines(), []
+    code_lines = cache(lambda: _code_lines(source))  # slow, and most functions are short anyway
     for node in ast.walk(ast.parse(source)):
         if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             continue
@@ -46,7 +50,8 @@ def too_large(source):
         top = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
         head = [*lines[max(top - 2, 0) : top - 1], *lines[node.lineno : first - 1]]
         excused = any(line.strip().startswith(REASON) for line in head)
-        n_lines = len(code_lines & set(range(first, node.end_lineno + 1))) if body else 0
+        inside = set(range(first, node.end_lineno + 1)) if body else set()
+        n_lines = len(code_lines() & inside) if len(inside) > MOST_LINES else len(inside)
         if (n_lines > MOST_LINES or len(positional) > MOST_POSITIONAL) and not excused:
             found.append((node.lineno, node.name, n_lines, len(positional)))
     return found

@@ -62,6 +62,7 @@ def test_the_command_line_uses_public_names_only(name):
     assert used <= set(shapespline.__all__)
 
 
+@pytest.mark.slow
 @by_module
 def test_scipy_is_imported_when_it_is_asked_for(name):
     for module, _, when in imports(MODULES[name]):
@@ -111,6 +112,7 @@ def test_import_loads_neither_numpy_nor_scipy():
     assert not {"numpy", "scipy", "PIL", "matplotlib", "typer", "contourpy"} & set(loaded)
 
 
+@pytest.mark.slow
 def test_fitting_needs_no_scipy():
     code = (
         "import sys, shapespline as ss, numpy as np\n"

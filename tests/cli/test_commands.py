@@ -153,6 +153,7 @@ def test_version_loads_nothing():
     assert done.stdout == f"shapespline {ss.__version__}\n[]\n"
 
 
+@pytest.mark.slow
 def test_help_does_not_load_the_numerical_packages():
     code = (
         "import sys; sys.argv = ['shapespline', 'fit', '--help'];"
@@ -275,6 +276,7 @@ def test_compare_and_info(shapespline, tmp_path):
     assert json.loads(out)["points"] == 620
 
 
+@pytest.mark.slow
 def test_trace_and_convert(shapespline, tmp_path):
     picture = DATA / "images" / "fa_leaf_256.png"
     code, out, _ = shapespline("trace", picture, "-o", tmp_path / "leaf.json")

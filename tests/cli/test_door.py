@@ -64,6 +64,7 @@ def test_a_tolerance_that_is_not_kept_is_exit_code_3(shapespline, desk, monkeypa
     assert code == 1
 
 
+@pytest.mark.slow
 def test_settings_are_saved_and_used_again(shapespline, desk):
     first = ("fit", "scan.csv", "-t", "0.5%", "--corners", "none", "--effort", "fast")
     for name in ("job.toml", "job.json"):
@@ -104,6 +105,7 @@ def test_bad_settings(shapespline, desk, text, message):
     assert not (desk / "x.svg").exists()
 
 
+@pytest.mark.slow
 def test_a_known_width(shapespline, desk):
     assert shapespline("fit", "logo.png", "--width", 120, "--unit", "mm", "-o", "logo.dxf")[0] == 0
     drawing = ss.read("logo.dxf")
@@ -216,6 +218,7 @@ def test_a_temporary_name_is_never_said(shapespline, tmp_path, monkeypatch):
     assert "shapespline-stream" not in err
 
 
+@pytest.mark.slow
 def test_errors_of_points_are_a_length_or_a_column(shapespline, desk):
     points = flower(80).points
     rows = "".join(f"{x},{y},0.1,0.2\n" for x, y in points)

@@ -52,6 +52,7 @@ def test_the_command_is_the_run(blob, words, arguments, tmp_path):
     assert table["two-sided distance"] == f"{run.fit.hausdorff_distance:.6g}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [

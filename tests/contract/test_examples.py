@@ -77,6 +77,7 @@ def test_images(row):
     assert all(contour.closed for contour in shape)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("image", "n_contours"),
     [

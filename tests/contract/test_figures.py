@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from benchmarks import picture_options, picture_peers
 
 
 @pytest.mark.slow
 def test_pictures_of_the_page_about_pictures_are_drawn(tmp_path, monkeypatch):
+    from benchmarks import picture_options, picture_peers
+
     for module, name in ((picture_options, "pictures"), (picture_peers, "pictures_peers")):
         monkeypatch.setattr(module, "TARGET", tmp_path)
         module.main()

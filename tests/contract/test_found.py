@@ -50,6 +50,7 @@ def test_a_polyline_of_six_points_is_no_error(form, effort):
     assert fit.kept
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["pieces", "spline"])
 @pytest.mark.parametrize("closed", [False, True])
 def test_neighbours_that_only_rounding_parts_are_no_error(form, closed):
@@ -212,6 +213,7 @@ def test_thin_trailing_edges_do_not_cross(seed):
     assert self_crossings(polyline_of(fit.curve, fit.tolerance / 50)) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", [{"through": [20, 90]}, {"form": "spline", "effort": "fast"}])
 def test_a_crossing_is_said_where_nothing_repairs_it(options):
     x = np.linspace(0, 10, 80)

@@ -119,7 +119,10 @@ def same(a, b):
     )
 
 
-@pytest.mark.parametrize("goal", DATA)
+@pytest.mark.parametrize(
+    "goal",
+    [pytest.param(one, marks=pytest.mark.slow if "noisy" in one else ()) for one in DATA],
+)
 @pytest.mark.parametrize("option", OPTIONS)
 def test_an_option_acts_or_is_refused(option, goal):
     points, options = DATA[goal]

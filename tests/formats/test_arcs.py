@@ -72,6 +72,7 @@ def circles(drawing):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", ["svg", "dxf", "json", "step", "iges", "3dm"])
 def test_round_trip(drawing, tmp_path, ending):
     if ending in ("step", "iges"):

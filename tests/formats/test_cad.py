@@ -10,10 +10,15 @@ from tests.support.round_trip import round_trip
 import shapespline as ss
 from shapespline.values.drawing import Drawing
 
-pytest.importorskip("OCP.Geom", reason="needs shapespline[cad]")
 rhino3dm = pytest.importorskip("rhino3dm", reason="needs shapespline[rhino]")
 
 ENDINGS = ["step", "iges", "3dm"]
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _open_cascade():
+    """Loaded with the first test, not when tests are collected: it takes seconds."""
+    pytest.importorskip("OCP.Geom", reason="needs shapespline[cad]")
 
 
 @pytest.fixture

@@ -113,6 +113,7 @@ def test_binary_data_is_refused():
         csv.parse(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")
 
 
+@pytest.mark.slow
 @given(st.binary(max_size=200))
 def test_any_bytes_give_points_or_a_format_error(data):
     try:

@@ -52,6 +52,7 @@ def unclamped(spline):
     spline.set_uniform([*POINTS, *POINTS[:3]], degree=3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "add",
     [
@@ -294,6 +295,7 @@ def test_coordinates_that_cannot_be(draw):
         draw(lambda s: s.add_line((0, 0), (1e80, 0)))
 
 
+@pytest.mark.slow
 @given(st.integers(0, len(WHOLE)), st.binary(max_size=6), st.booleans())
 @settings(max_examples=60)
 def test_any_damage_is_read_or_refused_in_a_sentence(tmp_path_factory, at, junk, cut):

@@ -217,6 +217,7 @@ def test_the_fuzzer_sees_what_is_wrong(monkeypatch):
     assert len({mutated([b"12,3"], "csv", seed) for seed in range(30)}) > 10
 
 
+@pytest.mark.slow
 def test_the_fuzzer_tells_a_slow_reader_from_a_library_that_hangs(monkeypatch):
     def taking(file, source):
         held = {}

@@ -11,7 +11,6 @@ import pytest
 import shapespline as ss
 
 shapely = pytest.importorskip("shapely")
-geopandas = pytest.importorskip("geopandas")
 
 REFERENCE = "EPSG:25832"
 
@@ -47,7 +46,9 @@ def test_one_fit_and_one_contour_are_geometries_too(lake):
     assert two.to_shapely().geom_type == "MultiLineString"
 
 
+@pytest.mark.slow
 def test_a_coordinate_reference_goes_all_the_way(lake, tmp_path):
+    geopandas = pytest.importorskip("geopandas")
     frame = geopandas.GeoDataFrame({"name": ["lake", "way"]}, geometry=list(lake), crs=REFERENCE)
     drawing = ss.fit_shape(ss.read(frame), tolerance=0.05)
     assert drawing.reference == REFERENCE
@@ -70,6 +71,7 @@ def test_no_reference_is_written_where_none_is_known(lake, tmp_path):
 
 
 def test_a_table_gets_its_fitted_geometries_back(lake):
+    geopandas = pytest.importorskip("geopandas")
     frame = geopandas.GeoDataFrame({"name": ["lake", "way"]}, geometry=list(lake), crs=REFERENCE)
     fitted = frame.set_geometry(
         [ss.fit_shape(ss.read(one), tolerance=0.05).to_shapely() for one in frame.geometry],

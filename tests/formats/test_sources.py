@@ -25,6 +25,7 @@ def files(tmp_path):
     return {path.suffix: path for path in tmp_path.iterdir()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".svg", ".dxf", ".json", ".csv", ".geojson", ".npy", ".png"])
 def test_bytes_and_open_files(files, suffix):
     path = files[suffix]

@@ -62,6 +62,7 @@ def tree_of(path):
     return ast.parse(text_of(path))
 
 
+@cache
 def imports(path):
     visitor = Imports()
     visitor.visit(tree_of(path))

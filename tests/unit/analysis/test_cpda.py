@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
-from scipy.signal import find_peaks, peak_prominences
 from tests.support import reference
 from tests.support.shapes import flower, moved, on_circle, rectangle, wave
 
@@ -234,6 +233,14 @@ def test_spacing_keeps_the_highest():
     assert maxima(ring, closed=True, spacing=5) == [0]
 
 
+def scipys(values):
+    """Peaks of a sequence, and their prominences."""
+    from scipy.signal import find_peaks, peak_prominences  # a second to load
+
+    peaks = find_peaks(values)[0]
+    return peaks, peak_prominences(values, peaks)[0]
+
+
 sequences = st.lists(st.integers(0, 12), min_size=3, max_size=60)
 
 
@@ -242,8 +249,8 @@ def test_open_prominence_is_scipys(values, prominence):
     values = np.array(values, dtype=float)
     # Ties are ours to break: make heights distinct by less than any of the prominences matters.
     values += np.random.default_rng(len(values)).permutation(len(values)) * 2.0**-20
-    peaks = find_peaks(values)[0]
-    expected = peaks[peak_prominences(values, peaks)[0] > prominence] if len(peaks) else peaks
+    peaks, height = scipys(values)
+    expected = peaks[height > prominence]
     assert_array_equal(maxima(values, prominence=prominence), expected)
 
 
@@ -253,8 +260,7 @@ def test_closed_prominence_is_scipys_on_three_rounds(values, prominence):
     n = len(values)
     values += np.random.default_rng(n).permutation(n) * 2.0**-20
     around = np.tile(values, 3)
-    peaks = find_peaks(around)[0]
-    height = peak_prominences(around, peaks)[0]
+    peaks, height = scipys(around)
     peaks = peaks[height > prominence]
     expected = peaks[(peaks >= n) & (peaks < 2 * n)] - n
     # The highest peak of all stands over the lowest value, which scipy's first or last round

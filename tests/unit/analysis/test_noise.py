@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.stats import chi2
 from tests.support.shapes import flower, rectangle, wave
 
 from shapespline.analysis.noise import HALF_WINDOW, noise_level
@@ -15,6 +14,8 @@ DEGREES_OF_FREEDOM = 2 * HALF_WINDOW + 1 - 4
 
 def spread(n):
     """Relative standard deviation of the estimate from n independent windows (median of chi^2)."""
+    from scipy.stats import chi2  # a second to load
+
     middle = chi2.median(DEGREES_OF_FREEDOM)
     return 0.5 / (2 * np.sqrt(n) * chi2.pdf(middle, DEGREES_OF_FREEDOM) * middle)
 

@@ -53,6 +53,7 @@ def test_known_errors_choose_the_size_and_tell_a_band():
     assert fitted(SHAKEN, sigma=20 * ERROR).n_control_points < fit.n_control_points
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", [{}, {"n_control_points": 24}])
 def test_outliers_do_not_bend_the_curve(options):
     bent = fitted(WILD, **(options or {"form": "spline"}))

@@ -88,6 +88,7 @@ def test_lines_and_arcs_for_machines_are_those_that_were_drawn():
     assert len(drawn.pieces) < len(fewest.pieces)
 
 
+@pytest.mark.slow
 def test_a_tolerance_below_the_noise_falls_back():
     shaken = rounded_box() + np.random.default_rng(3).normal(0, 0.3, (len(rounded_box()), 2))
     assert checked(ss.fit_curve(shaken, closed=True, tolerance=0.2, character="drawn"), 0.2)

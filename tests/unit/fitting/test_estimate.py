@@ -60,6 +60,7 @@ def test_a_clean_drawing_keeps_its_corners_and_lines():
     assert fit.kept
 
 
+@pytest.mark.slow
 def test_clean_outlines_stay_within_what_they_show(all_outlines):
     clean = [(name, contour) for name, contour in all_outlines[::4] if resolution(contour).clean]
     assert len(clean) >= 5

@@ -17,8 +17,6 @@ from tests.support.shapes import outlines
 import shapespline as ss
 from shapespline.streaming.stream import CHUNK
 
-distributed = pytest.importorskip("dask.distributed", reason="needs shapespline[cluster]")
-
 pytestmark = [
     pytest.mark.slow,
     # A worker that is killed on purpose leaves its sockets to the garbage collector.
@@ -29,6 +27,7 @@ pytestmark = [
 
 @pytest.fixture(scope="module")
 def cluster():
+    distributed = pytest.importorskip("dask.distributed", reason="needs shapespline[cluster]")
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
     ) as running:
@@ -59,7 +58,7 @@ class KillOneWorker:
 def test_a_killed_worker_loses_nothing(cluster):
     given = [*outlines(1200), np.zeros((2, 2))]
     alone = ss.fit_many(given, n_control_points=9)
-    with distributed.Client(cluster) as client:
+    with cluster.get_client() as client:
         kill_one = KillOneWorker(client)
         together = ss.fit_many(given, executor=client, progress=kill_one, n_control_points=9)
         kill_one.check()
@@ -75,7 +74,7 @@ def test_one_outline_whose_blocks_lie_on_the_cluster(cluster, asked):
     r = 3 + dask_array.cos(5 * t)
     blocks = dask_array.stack([r * dask_array.cos(t), r * dask_array.sin(t)], axis=1)
     alone = ss.fit_large(blocks.compute(), **asked)
-    with distributed.Client(cluster) as client:
+    with cluster.get_client() as client:
         kill_one = KillOneWorker(client)
         together = ss.fit_large(blocks, progress=kill_one, **asked)
         kill_one.check()

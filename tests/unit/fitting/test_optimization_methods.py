@@ -78,6 +78,7 @@ def test_every_method_lowers_the_error(method, closed):
     assert_gains_half(fit, optimize(contour, start))
 
 
+@pytest.mark.slow
 @methods
 def test_every_method_lowers_the_error_of_the_literal_start(method):
     contour = flower(160)
@@ -89,6 +90,7 @@ def test_every_method_lowers_the_error_of_the_literal_start(method):
     assert np.abs(gaps).max() <= 2 * EPS * 12  # moved to the middle of the data and back
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degree", range(1, 10))
 @pytest.mark.parametrize("closed", [True, False], ids=["closed", "open"])
 def test_every_degree(degree, closed):

@@ -62,6 +62,7 @@ def wiggle(rng, curve, n, noise, closed):
     return Contour(curve(u) + rng.normal(0, noise, (n, 2)), closed)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degree", range(1, 10))
 @pytest.mark.parametrize("periodic", [False, True], ids=["clamped", "periodic"])
 @pytest.mark.parametrize("noise", [1e-6, 0.3])
@@ -72,6 +73,7 @@ def test_random_curves_and_polylines(degree, periodic, noise):
     assert_bound(curve, contour)
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10**6), st.integers(1, 4), st.booleans(), st.integers(4, 30))
 @settings(max_examples=30)
 def test_any_curve_against_any_polyline(seed, degree, periodic, n):

@@ -89,6 +89,7 @@ def test_the_other_way(fit):
     assert back.n_stored_points == fit.n_stored_points
 
 
+@pytest.mark.slow
 @by_fit
 @pytest.mark.parametrize("at", [[0.3], [0.0, 0.37, 0.5], [0.11, 0.111, 0.9]])
 def test_parts_are_the_curve(fit, at):

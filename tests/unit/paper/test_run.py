@@ -186,6 +186,7 @@ def test_sensible_even_gaps_are_halved_once():
     assert run_paper(flower(), 8).start.n_control_points == 20
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [9, 40, 41])
 def test_number_of_control_points_is_the_one_asked_for(blob, n):
     assert run_paper(blob, LENGTH, n_control_points=n).fit.n_control_points == n

@@ -149,6 +149,7 @@ def test_error_panel_holds_the_distances(drawn):
     np.testing.assert_allclose(heights, [-largest, -rms, 0, rms, largest], rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("clockwise", [False, True])
 @pytest.mark.parametrize("outside", [False, True])
 def test_error_is_positive_outside_a_closed_contour(drawn, clockwise, outside):
@@ -252,6 +253,7 @@ def test_final_curve_hides_the_polygon(drawn):
     assert labels(drawn("final")) == ["data, 60 points", "B-spline curve"]
 
 
+@pytest.mark.slow
 def test_panels_have_one_scale_and_counted_titles(drawn):
     figure = drawn("panels")
     figure.draw_without_rendering()

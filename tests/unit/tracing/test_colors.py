@@ -133,6 +133,7 @@ def test_one_colour_has_no_border():
         trace_colors(np.full((9, 9, 3), 77, dtype=np.uint8))
 
 
+@pytest.mark.slow
 def test_no_ground_shows_between_areas_in_viewers_that_smooth_each_by_itself(shape, tmp_path):
     """Beneath areas that tile the picture lie their outlines, and nowhere else; none is read."""
     output = tmp_path / "areas.svg"

@@ -77,6 +77,7 @@ def test_a_crop_is_a_picture_of_its_own():
     assert [c.points.tolist() for c in text] == [c.points.tolist() for c in cut]
 
 
+@pytest.mark.slow
 def test_a_blur_takes_a_screen_away():
     y, x = np.mgrid[:120, :120]
     disc = np.hypot(x - 60, y - 60) < 35

@@ -18,6 +18,7 @@ def parts_and_holes(shape):
     return len(shape) - holes, holes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("corner", [(600.0, 400.0), (600.3, 400.7), (600.5, 400.5)])
 def test_a_dot_of_two_pixels_stays_in_a_large_picture(corner):
     def inside(x, y):
@@ -59,6 +60,7 @@ def test_grain_goes_and_is_counted():
     assert everything.left_out == ()
 
 
+@pytest.mark.slow
 def test_texture_goes_and_small_letters_beside_it_stay():
     """Random grain of all sizes that passes the level, and a word, in a picture with some noise."""
     rng = np.random.default_rng(3)

@@ -37,6 +37,7 @@ def values():
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", values())
 def test_equal_to_itself_made_again_and_to_nothing_else(name):
     mine = values()[name]

@@ -52,6 +52,7 @@ def joint_reference(case, damping):
     return step / scale, scale, np.linalg.cond(stacked / scale) ** 2
 
 
+@pytest.mark.slow
 @closures
 @some_degrees
 @dampings

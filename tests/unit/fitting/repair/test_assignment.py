@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from tests.support.shapes import ribbon
 
 import shapespline as ss
@@ -25,6 +26,7 @@ def test_parts_hold_every_point_once_from_any_of_them_on():
         assert {tuple(p) for p in turned.data.points} == {tuple(p) for p in contour.points}
 
 
+@pytest.mark.slow
 def test_points_that_scatter_go_with_their_pieces():
     """Where data are far longer than the curve along them, and elsewhere not, none is misplaced."""
     x, tolerance = np.linspace(0, 100, 4000), 0.5
