@@ -205,6 +205,7 @@ def test_formats_without_arcs_say_so_once(drawing, tmp_path, recwarn):
         assert said[0].filename == __file__
 
 
+@pytest.mark.slow
 def test_cad_for_other_readers(drawing, tmp_path):
     pytest.importorskip("OCP.Geom")
     rhino3dm = pytest.importorskip("rhino3dm")

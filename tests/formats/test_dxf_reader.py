@@ -240,6 +240,7 @@ def test_a_picture_with_the_wrong_ending(tmp_path):
         ss.read(tmp_path / "picture.dxf")
 
 
+@pytest.mark.slow
 def test_bombs_of_blocks_are_refused_before_one_is_exploded(draw):
     def tenfold(space):
         blocks = space.doc.blocks

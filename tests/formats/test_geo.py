@@ -70,6 +70,7 @@ def test_no_reference_is_written_where_none_is_known(lake, tmp_path):
     assert "crs" not in json.loads((tmp_path / "way.geojson").read_text())
 
 
+@pytest.mark.slow
 def test_a_table_gets_its_fitted_geometries_back(lake):
     geopandas = pytest.importorskip("geopandas")
     frame = geopandas.GeoDataFrame({"name": ["lake", "way"]}, geometry=list(lake), crs=REFERENCE)

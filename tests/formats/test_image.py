@@ -224,6 +224,7 @@ def test_truncated_pictures(tmp_path, kind):
         read(path)
 
 
+@pytest.mark.slow
 @given(data=st.data())
 @settings(deadline=None)  # a damaged width can make a picture large
 def test_no_damage_escapes_as_another_error(tmp_path_factory, data):

@@ -76,6 +76,7 @@ def arc_points(d, n=200):
     return np.array([(shape.point(t).x, shape.point(t).y) for t in np.linspace(0, 1, n)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rotation", [0, 30, 90, -77])
 @pytest.mark.parametrize("flags", ["0 0", "0 1", "1 0", "1 1"])
 def test_arcs_are_within_a_billionth(drawn, rotation, flags):

@@ -175,6 +175,7 @@ def test_text_makes_the_same_fit_again(tmp_path, monkeypatch, shapespline):
         command_line(own)
 
 
+@pytest.mark.slow
 def test_areas_of_colours_share_their_borders():
     document = opened("gear.png", example_bytes("gear"), {"colors": 2})
     asked = Asked.of({"settings": {"tolerance": 1.0}}, document)

@@ -244,6 +244,7 @@ def scipys(values):
 sequences = st.lists(st.integers(0, 12), min_size=3, max_size=60)
 
 
+@pytest.mark.slow
 @given(sequences, st.floats(0, 6))
 def test_open_prominence_is_scipys(values, prominence):
     values = np.array(values, dtype=float)

@@ -99,6 +99,7 @@ def test_through_many_of_many_points():
     assert (distances.min(axis=1) == 0).all()
 
 
+@pytest.mark.slow
 def test_outliers_and_nodes():
     points = wave(400).points.copy()
     points[100] += (0, 3.0)

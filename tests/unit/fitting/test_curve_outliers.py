@@ -19,6 +19,7 @@ def assert_promise_about_the_rest(fit, points):
     assert len(fit.parameters) == len(rest)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "arguments",
     [{"tolerance": 0.1}, {"tolerance": 0.1, "form": "spline"}, {"n_control_points": 40}, {}],

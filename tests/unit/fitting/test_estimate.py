@@ -102,6 +102,7 @@ def test_a_noisy_square_keeps_its_corners_and_lines():
     assert rms_to(square, fit) < 0.3 * deviation
 
 
+@pytest.mark.slow
 def test_one_spline_on_request_and_corners_as_told():
     square = Contour([(0, 0), (10, 0), (10, 10), (0, 10)], closed=True).resampled(800)
     noisy = shaken(square, 0.3, 2)

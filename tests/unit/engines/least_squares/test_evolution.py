@@ -60,6 +60,7 @@ def test_the_search_is_scipys_on_the_literal_objective():
     assert fit.history[-1].cost == pytest.approx(found.fun, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("closed", [True, False])
 def test_knots_move_and_the_same_seed_gives_the_same_bits(closed):
     points = flower(160).points + np.array([12.0, 0.0])

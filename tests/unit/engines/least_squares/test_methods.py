@@ -67,6 +67,7 @@ def test_the_joint_step_solves_the_dense_linearised_problem(degree, periodic, da
     assert np.linalg.norm(scale * (found - expected)) <= bound
 
 
+@pytest.mark.slow
 @closures
 @some_degrees
 @dampings

@@ -86,6 +86,7 @@ def test_what_is_held_has_no_gradient(ends):
     assert_array_equal(of_parameters, free_parameters)
 
 
+@pytest.mark.slow
 @degrees
 @closures
 @pytest.mark.parametrize("more", [1, 2, 6])

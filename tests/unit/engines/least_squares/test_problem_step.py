@@ -261,6 +261,7 @@ def test_no_stray_weight_is_the_plain_problem():
     assert_array_equal(plain.damped_step(x, 0.1).x, zero.damped_step(x, 0.1).x)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degree", [1, 2, 3, 5])
 @closures
 @pytest.mark.parametrize("n", [5, 12, 40])

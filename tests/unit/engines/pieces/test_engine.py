@@ -148,6 +148,7 @@ def test_repetition_gives_the_same_bits():
     assert a.spline.knots.tobytes() == b.spline.knots.tobytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", [1e-9, 1e9])
 @pytest.mark.parametrize("shift", [0.0, 1e3])
 def test_scale_and_place_do_not_break_the_promise(scale, shift):
