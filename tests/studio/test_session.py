@@ -186,6 +186,15 @@ def test_areas_of_colours_share_their_borders():
     assert any(a == b for k, a in enumerate(ends) for b in ends[:k])
 
 
+def test_a_map_keeps_its_coordinate_reference():
+    field = ss.Contour([(0, 0), (9, 0), (9, 5), (0, 5)], closed=True)
+    drawing = ss.fit_shape(ss.Shape([field], reference="EPSG:25832"), tolerance=0.1)
+    document = opened("field.geojson", encoded(drawing, ".geojson"), {})
+    for own in ({}, {"0": {"corners": [2]}}):
+        asked = Asked.of({"settings": {"tolerance": 0.1}, "own": own}, document)
+        assert whole(asked, Ticket(1)).reference == "EPSG:25832"
+
+
 def test_the_paper_is_told_step_by_step(page):
     page.say(type="example", id="wing", generation=1)
     page.next("shape")

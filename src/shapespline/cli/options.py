@@ -229,17 +229,7 @@ class Reading:
         with suppress(TypeError, ValueError):  # none given, or a part of the size
             sampling = SAMPLING_PART * float(tolerance)  # type: ignore[arg-type]
         shape = self.read(path, sampling if sampling and sampling > 0 else None)
-        if isinstance(shape, ss.Shape):
-            return shape
-        contours = [fit.contour for fit in shape]
-        return ss.Shape(
-            contours,
-            shape.parents,
-            shape.frame,
-            shape.unit,
-            colors=shape.colors,
-            reference=shape.reference,
-        )
+        return shape if isinstance(shape, ss.Shape) else shape.shape
 
 
 @dataclass(frozen=True)

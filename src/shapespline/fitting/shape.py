@@ -116,14 +116,7 @@ def fit_shape(
     )
     request = DrawingRequest.of(shape, settings, shared_boundaries)
     fits = _solved(request, callback, progress or _silent)
-    return Drawing(
-        fits,
-        shape.parents,
-        shape.frame,
-        shape.unit,
-        colors=shape.colors,
-        reference=shape.reference,
-    )
+    return Drawing.of(shape, fits)
 
 
 @dataclass(frozen=True, eq=False)

@@ -42,14 +42,7 @@ def polygon_drawing(shape: Shape) -> Drawing:
     (4, True, True)
     """
     fits = [_polygon_fit(contour) for contour in shape]
-    return Drawing(
-        fits,
-        shape.parents,
-        shape.frame,
-        shape.unit,
-        colors=shape.colors,
-        reference=shape.reference,
-    )
+    return Drawing.of(shape, fits)
 
 
 def as_drawing(value: Drawable) -> Drawing:

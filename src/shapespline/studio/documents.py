@@ -114,7 +114,8 @@ def opened(name: object, content: bytes, options: Mapping[str, Any]) -> Document
     file.name = name
     with _READING, warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        shape = _outlines(read(file, **given))
+        found = read(file, **given)
+    shape = found.shape if isinstance(found, Drawing) else found
     sentences = [
         str(warning.message) for warning in said if warning.category is not ResourceWarning
     ]
@@ -134,14 +135,6 @@ def opened_example(name: str) -> Document:
     """The document of an example; nothing changes it, so all pages share it."""
     content = example_bytes(name)
     return opened(EXAMPLES[name].file, content, {})
-
-
-def _outlines(found: Shape | Drawing) -> Shape:
-    """The outlines of what was read; of a drawing those that its curves were fitted to."""
-    if isinstance(found, Shape):
-        return found
-    contours = [fit.contour for fit in found]
-    return Shape(contours, found.parents, found.frame, found.unit, colors=found.colors)
 
 
 def drawn_points(contour: Contour, most: int, cell: float) -> IntArray:

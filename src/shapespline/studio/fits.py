@@ -71,7 +71,7 @@ def whole(asked: Asked, ticket: Ticket) -> Drawing:
         shared = asked.shared_boundaries
         return fit_shape(shape, callback=ticket.check, shared_boundaries=shared, **options)
     fits = [fitted(asked, index, ticket) for index in range(len(shape))]
-    return Drawing(fits, shape.parents, shape.frame, shape.unit, colors=shape.colors)
+    return Drawing.of(shape, fits)
 
 
 def splprep_fit(contour: Contour, tolerance: float, degree: int, ticket: Ticket) -> Fit:

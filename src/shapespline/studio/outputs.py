@@ -93,8 +93,7 @@ def python_text(asked: Asked) -> str:
     lines = ["import shapespline as ss", "", f"found = ss.read({document.name!r}{reading})"]
     common = Settings.from_dict(asked.common).to_dict()
     if PurePosixPath(document.name).suffix.lower() in (".svg", ".dxf", ".json", ".step", ".igs"):
-        lines += ["contours = [fit.contour for fit in found]"]
-        lines += ["shape = ss.Shape(contours, found.parents, found.frame, found.unit)"]
+        lines += ["shape = found.shape"]
     else:
         lines += ["shape = found"]
     if not asked.own:
@@ -116,7 +115,7 @@ def python_text(asked: Asked) -> str:
             "}",
             "for index, contour in enumerate(contours):",
             "    fits.append(ss.fit_curve(contour, **{**settings, **own.get(index, {})}))",
-            "drawing = ss.Drawing(fits, shape.parents, shape.frame, shape.unit)",
+            "drawing = ss.Drawing.of(shape, fits)",
         ]
     target = PurePosixPath(document.name).stem + "_fit.svg"
     return "\n".join([*lines, f"ss.write({json.dumps(target)}, drawing)", ""])

@@ -242,11 +242,7 @@ class Session:
                 about = {"type": "fit", "generation": ticket.generation, "outline": index}
                 about |= {"slot": slot, "draft": draft, "seconds": perf_counter() - began}
                 self._say({**about, **made.figures}, made.arrays)
-            shape = document.shape
-            drawing = Drawing(
-                [kept[k] for k in range(n_outlines)],
-                shape.parents, shape.frame, shape.unit, colors=shape.colors,
-            )  # fmt: skip
+            drawing = Drawing.of(document.shape, [kept[k] for k in range(n_outlines)])
             if not draft:
                 self._drawings[slot] = drawing
             self._done(drawing, ticket, slot, draft, perf_counter() - began)

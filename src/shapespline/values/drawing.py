@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from shapespline.errors import InvalidInputError
 from shapespline.units import checked_unit
 from shapespline.values.shape import (
+    Shape,
     checked_colors,
     checked_parents,
     checked_reference,
@@ -81,6 +82,40 @@ class Drawing(ByValue, Shown, Exchanged):
         object.__setattr__(self, "colors", checked_colors(colors, len(fits)))
         object.__setattr__(self, "reference", checked_reference(reference))
 
+    @classmethod
+    def of(cls, shape: Shape, fits: Sequence[Fit]) -> Drawing:
+        """Fits of the contours of a shape, with all that the shape says of itself.
+
+        Parameters
+        ----------
+        shape : Shape
+            Gives nesting, frame, unit, colours and coordinate reference.
+        fits : sequence of Fit
+            One for each contour, in their order.
+
+        Raises
+        ------
+        InvalidInputError
+            If there are more or fewer fits than contours.
+
+        Examples
+        --------
+        >>> import shapespline as ss
+        >>> box = ss.Contour([(0, 0), (9, 0), (9, 5), (0, 5)], closed=True)
+        >>> shape = ss.Shape([box, box.resampled(80)], [-1, 0], unit="mm")
+        >>> drawing = ss.Drawing.of(shape, [ss.fit_curve(one, tolerance=0.1) for one in shape])
+        >>> drawing.parents, drawing.unit
+        ((-1, 0), 'mm')
+        """
+        return cls(
+            fits,
+            shape.parents,
+            shape.frame,
+            shape.unit,
+            colors=shape.colors,
+            reference=shape.reference,
+        )
+
     def __len__(self) -> int:
         return len(self.fits)
 
@@ -92,6 +127,18 @@ class Drawing(ByValue, Shown, Exchanged):
         return (
             f"Drawing({counted(len(fits), 'curve')}, {n_points} stored points, distance"
             f" {largest:.3g}{unit}, {sum(fit.kept for fit in fits)} of {len(fits)} kept)"
+        )
+
+    @property
+    def shape(self) -> Shape:
+        """The outlines that the curves were fitted to, with all that the drawing says of itself."""
+        return Shape(
+            [fit.contour for fit in self.fits],
+            self.parents,
+            self.frame,
+            self.unit,
+            colors=self.colors,
+            reference=self.reference,
         )
 
     def is_hole(self, index: int) -> bool:
