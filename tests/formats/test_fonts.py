@@ -156,7 +156,8 @@ def test_bad_glyphs_are_said(tmp_path, ring):
     for options, sentence in (
         ({"glyph": ""}, "glyph must be a name"),
         ({"codepoint": "ab"}, "one character"),
-        ({"advance": -1.0}, "advance must not be negative"),
+        ({"advance": -1.0}, "advance must be a number, 0 or more"),
+        ({"advance": "wide"}, "advance must be a number, 0 or more"),
     ):
         with pytest.raises(ss.InvalidInputError, match=sentence):
             ss.write(tmp_path / "x.glif", ring, **options)

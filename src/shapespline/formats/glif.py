@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from shapespline.errors import FormatError, InvalidInputError, MissingExtraError
 from shapespline.formats.pens import draw_with_pen, outlines_of
+from shapespline.validation import is_number
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -100,9 +101,10 @@ def encode(
     if codepoint is not None and not (isinstance(codepoint, str) and len(codepoint) == 1):
         raise InvalidInputError(f"codepoint must be one character, got {codepoint!r}")
     held = _Glyph()
-    held.width = max(float(drawing.bounds.x_max), 0.0) if advance is None else float(advance)
-    if not 0.0 <= held.width < float("inf"):
-        raise InvalidInputError(f"advance must not be negative, got {advance!r}")
+    width = max(float(drawing.bounds.x_max), 0.0) if advance is None else advance
+    if not (is_number(width) and 0.0 <= width < float("inf")):
+        raise InvalidInputError(f"advance must be a number, 0 or more, got {advance!r}")
+    held.width = float(width)
     held.unicodes = () if codepoint is None else (ord(codepoint),)
     text = writeGlyphToString(
         glyph,
