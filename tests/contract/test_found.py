@@ -62,6 +62,12 @@ def test_neighbours_that_only_rounding_parts_are_no_error(form, closed):
             assert fit.kept
 
 
+def test_a_spiral_too_rough_for_one_spline_is_no_error():
+    t = np.linspace(0.5, 12 * np.pi, 176)
+    spiral = np.column_stack([t * np.cos(t), t * np.sin(t)])
+    assert ss.fit_curve(spiral, closed=False, tolerance="0.1%", effort="fast").kept
+
+
 def test_a_tolerance_beyond_the_size_is_no_error():
     points = [(1, 0), (0, 0), (2, -1)]
     assert ss.fit_curve(points, closed=True, tolerance=3.0, degree=2, effort="smallest").kept
