@@ -65,7 +65,7 @@ def encode(
     Parameters
     ----------
     drawing : Drawing
-        Its unit sizes the page; without one its numbers are pixels.
+        Its unit sizes the page; without one viewers fit the page into their window.
     fill : bool
         Fill closed curves; otherwise they are stroked like open ones.
     stroke_width : float, optional
@@ -121,9 +121,7 @@ def encode(
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         '<svg xmlns="http://www.w3.org/2000/svg"'
-        f"{LINKS if tiled else ''}"
-        f' width="{_page_length(box.width, drawing.unit)}"'
-        f' height="{_page_length(box.height, drawing.unit)}"'
+        f"{LINKS if tiled else ''}{_page(box, drawing.unit)}"
         f' viewBox="{" ".join(map(_number, box))}">',
     ]
     if tiled:
@@ -232,11 +230,15 @@ def _number(value: float) -> str:
     return text.removesuffix(".0")
 
 
-def _page_length(length: float, unit: str | None) -> str:
-    """A side of the page, in a unit that CSS knows."""
-    if unit is not None and unit not in PAGE_UNITS:
-        length, unit = length * MILLIMETRES[unit], "mm"
-    return f"{_number(length)}{unit or ''}"
+def _page(box: ViewBox, unit: str | None) -> str:
+    """The size of the page, in a unit that CSS knows; no size where no unit tells one."""
+    if unit is None:
+        return ""
+    factor = 1.0
+    if unit not in PAGE_UNITS:
+        factor, unit = MILLIMETRES[unit], "mm"
+    width, height = _number(factor * box.width), _number(factor * box.height)
+    return f' width="{width}{unit}" height="{height}{unit}"'
 
 
 def _rounded(value: float) -> float:
