@@ -39,6 +39,11 @@ struct Samples {
 // The weight grows smoothly from zero, so that points may still drift apart (LSQ-01).
 inline constexpr double kFreeGap = 0.125;
 inline constexpr double kStraySamples = 8.0;  // a span
+// Spans that all gaps together get samples for, times those of the domain. Parameters in data order
+// never want more: 8 gaps a span are wider than kFreeGap, and rounding up adds one span to each. A
+// line search tries parameters that a bad direction has thrown about, every gap as long as the
+// domain: there the samples are thinned out (LSQ-08).
+inline constexpr double kMostSpans = 1.0 + 1.0 / kFreeGap;
 
 struct Stray {
     std::size_t before, after;  // the data points it lies between
@@ -57,23 +62,37 @@ void for_each_stray(const Knots &knots, const Samples &samples, Visit &&visit) {
         n_spans += knots.values[k] < knots.values[k + 1];
     const double span = knots.period() / static_cast<double>(n_spans);
     const std::size_t n = samples.size();
-    for (std::size_t j = 0; j + 1 < n + (knots.periodic ? 1 : 0); ++j) {
+    const std::size_t n_gaps = knots.periodic ? n : n - 1;
+    const auto gap_after = [&](std::size_t j) {
         const bool closing = j + 1 == n;
-        const double begin = samples.parameters[j];
         const double end = closing ? samples.parameters[0] + knots.period()
                                    : samples.parameters[j + 1];
-        const double excess = (end - begin) / (kFreeGap * span) - 1.0;
+        return end - samples.parameters[j];
+    };
+    // No more than the whole domain deserves, however far a parameter may have flown.
+    const auto spans_of = [&](double gap) {
+        return std::clamp(std::ceil(gap / span), 1.0, static_cast<double>(n_spans));
+    };
+    double wanted = 0.0;
+    for (std::size_t j = 0; j < n_gaps; ++j) {
+        const double gap = gap_after(j);
+        if (gap > kFreeGap * span) wanted += spans_of(gap);
+    }
+    const double most = kMostSpans * static_cast<double>(n_spans);
+    const double thinning = wanted > most ? most / wanted : 1.0;
+    for (std::size_t j = 0; j < n_gaps; ++j) {
+        const double gap = gap_after(j);
+        const double excess = gap / (kFreeGap * span) - 1.0;
         if (!(excess > 0.0)) continue;
-        const Vec2 a = samples.points[j], b = samples.points[closing ? 0 : j + 1];
-        // No more than the whole domain deserves, however far a parameter may have flown.
+        const std::size_t after = j + 1 == n ? 0 : j + 1;
+        const Vec2 a = samples.points[j], b = samples.points[after];
         const double n_samples =
-            kStraySamples *
-            std::clamp(std::ceil((end - begin) / span), 1.0, static_cast<double>(n_spans));
+            std::max(1.0, std::floor(thinning * (kStraySamples * spans_of(gap))));
         const double unit = samples.stray_weight / n_samples;
         const double slope = 2.0 * unit * excess / (kFreeGap * span);
         for (double i = 1.0; i <= n_samples; ++i) {
             const double s = i / (n_samples + 1.0);
-            visit(Stray{j, closing ? 0 : j + 1, s, begin + s * (end - begin), a + s * (b - a),
+            visit(Stray{j, after, s, samples.parameters[j] + s * gap, a + s * (b - a),
                         unit * excess * excess, slope});
         }
     }

@@ -144,6 +144,23 @@ def test_dense_data_have_no_stray_residuals():
     assert held.cost(x) > plain.cost(x)
 
 
+@closures
+def test_parameters_that_were_thrown_about_get_few_stray_samples(periodic):
+    """A line search tries them, and refuses them; every gap wants as many as the whole domain."""
+    case = Case(3, periodic, n=90, multiple=False)
+    knots, parameters = case.curve.knots, case.parameters.copy()
+    parameters[::2] += 1000 * (knots[-4] - knots[3])
+    strays = reference.stray_residuals(knots, 3, case.points, parameters, 0.3, periodic)
+    assert len(strays) <= 8 * 9 * (len(np.unique(knots[3:-3])) - 1)
+    problem = CurveProblem(case.points, case.curve, stray_weight=0.3)
+    plain = CurveProblem(case.points, case.curve)
+    x = plain.pack(case.curve.control_points, parameters)
+    off = case.curve(np.array([s.parameter for s in strays])) - [s.target for s in strays]
+    expected = 0.5 * (np.array([s.weight for s in strays]) * (off**2).sum(axis=1)).sum()
+    # A parameter 1000 domains away keeps three digits less.
+    assert problem.cost(x) - plain.cost(x) == pytest.approx(expected, rel=1e-9)
+
+
 @pytest.mark.parametrize("degree", [1, 2, 3, 5])
 @closures
 @pytest.mark.parametrize("held", [False, True])
