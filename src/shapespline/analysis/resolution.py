@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis.noise import noise_level
+from shapespline.validation import median
 
 if TYPE_CHECKING:
     from shapespline.values import Contour
@@ -48,7 +49,7 @@ def resolution(contour: Contour) -> Resolution:
     False
     """
     noise = noise_level(contour)
-    step = float(np.median(np.diff(contour.arc_length)))
+    step = median(np.diff(contour.arc_length))
     least, most = (part * contour.box_diagonal for part in BOX_PARTS)
     floor = min(max(SAMPLING_PART * step, least), most)
     known = contour.accuracy or 0.0

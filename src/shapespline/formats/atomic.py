@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import secrets
 import stat
 from pathlib import Path
 
@@ -66,7 +65,7 @@ def write_atomically(path: str | os.PathLike[str], data: bytes) -> None:
 def _replace(target: Path, data: bytes) -> None:
     """Write a temporary file next to the target and rename it."""
     # A random name: no other run can be writing the same temporary file.
-    temporary = target.with_name(f".{secrets.token_hex(8)}.tmp")
+    temporary = target.with_name(f".{os.urandom(8).hex()}.tmp")
     try:
         # Created by open, not by tempfile: the permissions are then those of any new file.
         with temporary.open("xb") as file:

@@ -30,7 +30,7 @@ def placed_pieces(pieces: Sequence[Piece], curve: BSplineCurve) -> list[PlacedPi
 
     Every piece gives the curve one span for each of its own.
     """
-    counts = [len(np.unique(piece.knots)) - 1 for piece in pieces]
+    counts = [piece.n_beziers for piece in pieces]
     ends = curve.breakpoints[np.concatenate([[0], np.cumsum(counts)])].tolist()
     return [PlacedPiece(*item) for item in zip(pieces, ends[:-1], ends[1:], strict=True)]
 

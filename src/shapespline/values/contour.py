@@ -21,7 +21,7 @@ from shapespline.errors import (
     InvalidInputError,
     caller_level,
 )
-from shapespline.validation import float_array, is_number
+from shapespline.validation import float_array, is_number, median
 from shapespline.values.equality import ByValue
 from shapespline.values.exchanged import Exchanged
 from shapespline.values.shown import Shown
@@ -112,9 +112,7 @@ def _looks_closed(points: FloatArray) -> bool:
     steps = np.hypot(*np.diff(points, axis=0).T)
     longest = float(steps.max())
     # A median is slow to find, and where the gap exceeds it that often it need not be known.
-    return gap <= longest or (
-        gap <= CLOSING_GAP * longest and gap <= CLOSING_GAP * float(np.median(steps))
-    )
+    return gap <= longest or (gap <= CLOSING_GAP * longest and gap <= CLOSING_GAP * median(steps))
 
 
 @dataclass(frozen=True, eq=False, init=False)

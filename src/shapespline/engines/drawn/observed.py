@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.analysis import noise_level
+from shapespline.validation import median
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ class Observed:
     def of(cls, contour: Contour, accuracy: float | None) -> Observed:
         """A contour; ``accuracy`` is what its picture knows, None for measured points."""
         points, closed = contour.points, contour.closed
-        step = float(np.median(np.diff(contour.arc_length)))
+        step = median(np.diff(contour.arc_length))
         if accuracy:
             shown = noise_level(Contour.trusted(points, closed))
             deviation = min(max(SLOW * shown, BEST * accuracy), accuracy) if shown else accuracy
@@ -83,7 +84,7 @@ class Observed:
     @cached_property
     def step(self) -> float:
         """Median distance of neighbours."""
-        return float(np.median(np.hypot(*np.diff(self.points, axis=0).T)))
+        return median(np.hypot(*np.diff(self.points, axis=0).T))
 
 
 def _averaged(points: FloatArray, closed: bool, deviation: float) -> int:
@@ -94,7 +95,7 @@ def _averaged(points: FloatArray, closed: bool, deviation: float) -> int:
     wide = np.concatenate([points[-k:], points, points[:k]]) if closed else points
     sums = np.cumsum(wide, axis=0)
     soft = (sums[k:] - sums[:-k]) / k
-    step = float(np.median(np.hypot(*(soft[k:] - soft[:-k]).T))) / k
+    step = median(np.hypot(*(soft[k:] - soft[:-k]).T)) / k
     if step >= deviation:
         return 1
     return ceil((deviation / step) ** (2 / 3))

@@ -15,6 +15,7 @@ import numpy as np
 
 from shapespline.engines.pieces.constraints import pinned_exactly
 from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, n_points_of
+from shapespline.validation import distinct
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -112,6 +113,6 @@ def in_data(
     """
     restored = problem.normalized.restored(pieces)
     ends = [0, len(contour) - 1] if constraints.ends and not contour.closed else []
-    held = np.union1d(np.array(ends, dtype=np.int64), constraints.through)
+    held = distinct(np.array(ends, dtype=np.int64), constraints.through)
     pinned_exactly(restored, contour.points[held])
     return restored

@@ -9,6 +9,7 @@ import numpy as np
 from shapespline.analysis import LOW_TURN, NormalizedContour, find_corners
 from shapespline.engines.pieces.constraints import Constraints
 from shapespline.errors import InvalidInputError
+from shapespline.validation import distinct
 
 if TYPE_CHECKING:
     from shapespline.typing import ArrayLike, CornerChoice, IntArray
@@ -75,14 +76,14 @@ class PiecesProblem(NamedTuple):
         return cls(
             normalized,
             search_tolerance,
-            np.unique(normalized.new_index[given.astype(np.int64)]),
+            distinct(normalized.new_index[given.astype(np.int64)]),
             low_turn,
             constraints,
         )
 
     def thinned(self) -> PiecesProblem:
         """The problem without points that no search needs, its tolerance less by their error."""
-        stay = np.union1d(self.corners, self.constraints.through)
+        stay = distinct(self.corners, self.constraints.through)
         normalized = self.normalized.thinned(self.tolerance, stay)
         if normalized is self.normalized:
             return self
@@ -105,5 +106,5 @@ def _in_order(constraints: Constraints, normalized: NormalizedContour) -> Constr
         begin, end = (None if t is None else -t for t in (end, begin))
     through = constraints.through
     if len(through):
-        through = np.unique(normalized.new_index[through])
+        through = distinct(normalized.new_index[through])
     return constraints._replace(through=through, tangents=(begin, end))

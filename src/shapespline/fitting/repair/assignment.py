@@ -156,7 +156,7 @@ def line_of(curve: BSplineCurve, tolerance: float, corners: FloatArray) -> Float
         (corners[:, None] + sign * steps[at][:, None] * HALVINGS).ravel()
         for at, sign in ((before, -1), ((before + 1) % len(steps), 1))
     ]
-    more = np.setdiff1d(np.concatenate(beside), parameters)
+    more = np.array(sorted({*np.concatenate(beside).tolist()} - {*parameters.tolist()}))
     more = more[(more > parameters[0]) & (more < parameters[-1])]
     at = np.searchsorted(parameters, more)
     return np.insert(points, at, curve(more), axis=0)
