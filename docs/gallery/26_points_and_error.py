@@ -17,5 +17,7 @@ fits = [ss.fit_curve(points, closed=True, n_control_points=count) for count in c
 _, axes = plt.subplots(figsize=(5.4, 3.8), layout="constrained")
 axes.loglog(counts, [fit.rms_distance for fit in fits], "o-", color=BLUE, label="rms")
 axes.loglog(counts, [fit.hausdorff_distance for fit in fits], "s--", color=BLUE, label="largest")
+axes.set_xticks(counts, counts)
+axes.minorticks_off()
 axes.set(xlabel="control points", ylabel="distance (size 100)")
 axes.legend(frameon=False)

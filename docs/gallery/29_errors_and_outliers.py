@@ -8,7 +8,7 @@ the first, ``loss="tukey"`` shrugs off the second; the strip holds the true curv
 """
 
 import numpy as np
-from canvas import BLUE, curves, dots, panels
+from canvas import GREEN, closer, curves, dots, panels
 
 import shapespline as ss
 
@@ -22,14 +22,12 @@ points[random.choice(220, 6, replace=False)] *= random.uniform(0.6, 1.3, (6, 1))
 
 fit = ss.fit_curve(points, closed=True, sigma=sigma, loss="tukey")
 band = fit.band(0.95)
-(axes,) = panels()
-axes.fill(
-    *np.vstack([band.left, band.right[::-1]]).T, color=BLUE, alpha=0.35, lw=0, label="95 % band"
-)
-dots(axes, points, 5)
-curves(axes, [fit], points=False)
-known = fit.uncertainty
-axes.set_title(
-    f"{fit.n_stored_points} points; half width {band.half_width.min():.2f} to"
-    f" {band.half_width.max():.2f}"
-)
+whole, near = panels(2)
+for axes in (whole, near):
+    strip = np.vstack([band.left, band.right[::-1]]).T
+    axes.fill(*strip, color=GREEN, alpha=0.35, lw=0)
+    dots(axes, points, 4 if axes is whole else 7)
+    curves(axes, [fit], points=False)
+closer(whole, near, points[110], 2.5)
+whole.set_title(f"{fit.n_stored_points} points")
+near.set_title(f"half width {band.half_width.min():.2f} to {band.half_width.max():.2f}")

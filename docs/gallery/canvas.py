@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.patches import PathPatch
+from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Polygon
 from PIL import Image
 
@@ -56,6 +56,13 @@ def picture(axes: Axes, path: Path) -> None:
 def dots(axes: Axes, points: np.ndarray, size: float = 3) -> None:
     """Data points."""
     axes.plot(*points.T, ".", ms=size, color=GREY, mew=0, zorder=1)
+
+
+def closer(whole: Axes, near: Axes, middle: np.ndarray, reach: float) -> None:
+    """Show in ``near`` what lies about a point, and frame it in ``whole``."""
+    x, y = (middle - reach).tolist()
+    near.set(xlim=(x, x + 2 * reach), ylim=(y, y + 2 * reach))
+    whole.add_patch(Rectangle((x, y), 2 * reach, 2 * reach, fill=False, ec=ORANGE, lw=1, zorder=6))
 
 
 def curves(
