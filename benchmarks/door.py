@@ -1,4 +1,8 @@
-"""How long a person waits before anything happens: ``python -m benchmarks.door``.
+"""How long a person waits before anything happens, and what an installation weighs.
+
+    python -m benchmarks.door
+
+The weight is that of the fresh environment that ``make wheel`` leaves behind it.
 
 Processes of their own, from the first instruction to the last. On a machine with other work the
 seconds of processor tell more than those of the clock; both are the least of some runs.
@@ -15,7 +19,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from resource import RUSAGE_CHILDREN, getrusage
 
-OUTLINE = Path(__file__).parent.parent / "examples" / "data" / "outlines" / "hand620_closed.csv"
+ROOT = Path(__file__).parent.parent
+OUTLINE = ROOT / "examples" / "data" / "outlines" / "hand620_closed.csv"
+FRESH = ROOT / "build" / "wheel" / "environment" / "bin" / "python"
 RUNS = 7
 
 
@@ -79,6 +85,11 @@ def main() -> None:
         print(f"| {name} | {one.processor:.3f} s | {one.clock:.3f} s |")
     own = found["import shapespline"].beside(found["python -c pass"])
     print(f"| import alone | {own.processor:.3f} s | {own.clock:.3f} s |")
+    if not FRESH.exists():
+        print("\nFor the weight of an installation: make wheel, then this again.")
+        return
+    print()
+    subprocess.run([FRESH, "-I", ROOT / "scripts" / "smoke.py", "--weight"], check=True)
 
 
 if __name__ == "__main__":

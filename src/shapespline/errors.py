@@ -6,6 +6,7 @@ Every message names the argument, what was expected, what came and what to do ab
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 
 
 class ShapesplineError(Exception):
@@ -54,6 +55,42 @@ class ShuffledPointsWarning(UserWarning):
 
 class ArcsAsCurvesWarning(UserWarning):
     """A format that knows no arcs was written: curves stand for them."""
+
+
+def require(module: str, extra: str, said: str) -> None:
+    """Raise unless a module of an extra can be imported.
+
+    Parameters
+    ----------
+    module : str
+        What is imported.
+    extra : str
+        What brings it.
+    said : str
+        Who needs it, such as "DXF files need".
+
+    Raises
+    ------
+    MissingExtraError
+
+    Examples
+    --------
+    >>> require("no_such_module", "dxf", "DXF files need")
+    Traceback (most recent call last):
+    ...
+    shapespline.errors.MissingExtraError: DXF files need the extra dxf: \
+pip install "shapespline[dxf]"
+    """
+    try:
+        import_module(module)
+    except ModuleNotFoundError as error:
+        raise MissingExtraError(
+            f'{said} the extra {extra}: pip install "shapespline[{extra}]"'
+        ) from error
+    except ImportError as error:  # there, but a library of the system is not
+        raise MissingExtraError(
+            f"{said} {module}, which is installed and cannot be loaded: {error}"
+        ) from error
 
 
 def caller_level() -> int:

@@ -147,7 +147,7 @@ def test_version_loads_nothing():
     code = (
         "import sys; sys.argv = ['shapespline', '--version'];"
         "from shapespline.__main__ import main; main();"
-        "print([name for name in ('numpy', 'scipy', 'typer') if name in sys.modules])"
+        "print([name for name in ('numpy', 'scipy', 'click') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == f"shapespline {ss.__version__}\n[]\n"

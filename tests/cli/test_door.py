@@ -15,6 +15,8 @@ from tests.support.shapes import flower
 
 import shapespline as ss
 from shapespline.cli import help_pages, settings_file, waiting
+from shapespline.cli.jobs import run_all
+from shapespline.cli.reports import Report
 
 
 @pytest.fixture
@@ -191,6 +193,20 @@ def test_a_long_step_is_said_on_a_terminal(monkeypatch, capsys):
     assert err.endswith("\r")  # and gone again
 
 
+def test_a_line_that_stays_is_not_written_into_one_that_goes(monkeypatch, capsys):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setattr(waiting, "PATIENCE", 0.02)
+    monkeypatch.setattr(waiting, "EVERY", 0.01)
+    pairs = [(HAND, HAND)] * 2
+    for report in run_all(lambda *_: time.sleep(0.1) or Report("a file"), pairs):
+        shown = capsys.readouterr().err
+        assert "of 2 files, 0 s" in shown
+        assert shown.endswith(" \r")
+        time.sleep(0.05)
+        assert capsys.readouterr().err == ""
+        assert report.error is None
+
+
 def test_a_short_step_and_a_pipe_stay_silent(monkeypatch, capsys):
     with waiting.said_when_long() as say:
         say("fitting")
@@ -201,10 +217,14 @@ def test_a_short_step_and_a_pipe_stay_silent(monkeypatch, capsys):
 
 
 def test_shell_completion_is_written(shapespline, monkeypatch):
-    monkeypatch.setenv("_SHAPESPLINE_COMPLETE", "source_bash")
-    code, out, _ = shapespline()
+    code, script, _ = shapespline("--show-completion", "bash")
     assert code == 0
-    assert "_SHAPESPLINE_COMPLETE=complete_bash" in out
+    assert "_SHAPESPLINE_COMPLETE=bash_complete" in script
+    monkeypatch.setenv("_SHAPESPLINE_COMPLETE", "bash_complete")
+    for words, last, expected in (("fi", 1, "fit"), ("fit --toler", 2, "--tolerance")):
+        monkeypatch.setenv("COMP_WORDS", f"shapespline {words}")
+        monkeypatch.setenv("COMP_CWORD", str(last))
+        assert shapespline()[1].split(",")[-1].strip() == expected
 
 
 def test_a_temporary_name_is_never_said(shapespline, tmp_path, monkeypatch):

@@ -5,7 +5,7 @@ import io
 from dataclasses import replace
 
 import pytest
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 from shapespline import LITERAL, SENSIBLE, Contour, Drawing, initial_curve, optimize, read, write
 from shapespline.cli.main import app

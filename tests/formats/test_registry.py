@@ -13,10 +13,24 @@ from types import ModuleType
 
 import pytest
 
-from shapespline.errors import FormatError, InvalidInputError, UnknownFormatError
+from shapespline.errors import (
+    FormatError,
+    InvalidInputError,
+    MissingExtraError,
+    UnknownFormatError,
+)
 from shapespline.formats import atomic
 from shapespline.formats import registry as formats
-from shapespline.formats.registry import Format, read, readable, writable, write, write_atomically
+from shapespline.formats.registry import (
+    FORMATS,
+    Format,
+    check_output,
+    read,
+    readable,
+    writable,
+    write,
+    write_atomically,
+)
 
 SQUARE = "0,0\n4,0\n4,4\n0,4\n0,0\n"
 
@@ -224,3 +238,20 @@ def test_a_pipe_is_written_to_and_not_replaced(tmp_path):
     reader.join(timeout=10)
     assert received == [b"data"]
     assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+def test_a_format_of_a_missing_extra_is_refused_before_any_work(monkeypatch, tmp_path, shapespline):
+    needed = [entry for entry in FORMATS if entry.needs]
+    assert {entry.needs[1] for entry in needed} == {"dxf", "cad", "rhino", "fonts"}
+    for entry in needed:
+        module, extra = entry.needs
+        with monkeypatch.context() as without:
+            without.setitem(sys.modules, module, None)
+            said = rf'need the extra {extra}: pip install "shapespline\[{extra}\]"'
+            path = tmp_path / f"x{entry.suffixes[0]}"
+            with pytest.raises(MissingExtraError, match=said):
+                read(path) if entry.reads else check_output(path)
+            # Said before the input is looked at, which is not there.
+            code, _, err = shapespline("fit", tmp_path / "none.csv", "-o", path)
+            assert (code, err.count("\n")) == (1, 1)
+            assert "pip install" in err

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 import shapespline as ss
 from shapespline.cli import options
+from shapespline.cli.declared import Option
 from shapespline.cli.gathering import gathers
 from shapespline.cli.reports import Report, drawing_record
 from shapespline.cli.run_files import Batch, run_files
@@ -96,7 +95,7 @@ def trace(
     *,
     left_out: Annotated[
         bool,
-        typer.Option("--left-out", help="Write what was left out as noise, not what was kept."),
+        Option("--left-out", help="Write what was left out as noise, not what was kept."),
     ] = False,
     reading: options.Reading,
     writing: options.Writing,

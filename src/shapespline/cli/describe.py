@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
 import shapespline as ss
 from shapespline.cli import options, places
@@ -34,11 +34,11 @@ def compare(
     found = ss.compare(a, b)
     if as_json:
         record = {**asdict(found), "hausdorff_distance": found.hausdorff_distance}
-        typer.echo(json.dumps({"first": first, "second": second, **record}))
+        click.echo(json.dumps({"first": first, "second": second, **record}))
         return
-    typer.echo(f"{first} to {second}: max {found.forward_max:.6g}, rms {found.forward_rms:.6g}")
-    typer.echo(f"{second} to {first}: max {found.reverse_max:.6g}, rms {found.reverse_rms:.6g}")
-    typer.echo(
+    click.echo(f"{first} to {second}: max {found.forward_max:.6g}, rms {found.forward_rms:.6g}")
+    click.echo(f"{second} to {first}: max {found.reverse_max:.6g}, rms {found.reverse_rms:.6g}")
+    click.echo(
         f"two-sided distance {found.hausdorff_distance:.6g}, sampled every {found.spacing:.3g}"
     )
 
@@ -65,7 +65,7 @@ def info(
             report.show(as_json, named=len(found) > 1)
             n_failed += report.error is not None
     if n_failed:
-        raise typer.Exit(1)
+        raise click.exceptions.Exit(1)
 
 
 def _record(held: Shape | Drawing) -> dict[str, Any]:

@@ -7,39 +7,41 @@ import platform
 import sys
 import time
 
-import typer
+import click
 
 import shapespline as ss
 
-CORE = ("numpy", "scipy", "pillow", "contourpy", "ezdxf", "svgelements", "typer")
-# Extra -> the module that it brings.
+CORE = ("numpy", "scipy", "pillow", "svgelements", "click")
+# Extra -> the package that it brings.
 EXTRAS = {
+    "dxf": "ezdxf",
     "plot": "matplotlib",
     "cad": "OCP",
     "rhino": "rhino3dm",
     "geo": "geopandas",
-    "fonts": "fontTools.ufoLib",
-    "cluster": "dask",
+    "fonts": "fontTools",
+    "cluster": "distributed",
+    "studio": "uvicorn",
 }
 
 
 def doctor() -> None:
     """Print versions and extras, and fit a known curve, to see whether all is well."""
-    typer.echo(f"shapespline {ss.__version__}, Python {platform.python_version()}, {sys.platform}")
-    typer.echo(", ".join(f"{name} {_version(name)}" for name in CORE))
+    click.echo(f"shapespline {ss.__version__}, Python {platform.python_version()}, {sys.platform}")
+    click.echo(", ".join(f"{name} {_version(name)}" for name in CORE))
     from importlib import util
 
     for extra, module in EXTRAS.items():
         there = util.find_spec(module) is not None
-        typer.echo(f"{extra}: {'yes' if there else f'no; pip install shapespline[{extra}]'}")
-    typer.echo(f"processors: {os.cpu_count()}; one fit takes one, --jobs takes more")
+        click.echo(f"{extra}: " + ("yes" if there else f'no; pip install "shapespline[{extra}]"'))
+    click.echo(f"processors: {os.cpu_count()}; one fit takes one, --jobs takes more")
     began = time.perf_counter()
     fit = _known_fit()
     seconds = time.perf_counter() - began
-    typer.echo(f"self-check: {fit.n_stored_points} points, {seconds:.2f} s; {fit.status}")
+    click.echo(f"self-check: {fit.n_stored_points} points, {seconds:.2f} s; {fit.status}")
     if not fit.kept:
-        typer.echo("the self-check failed: install the package again", err=True)
-        raise typer.Exit(1)
+        click.echo("the self-check failed: install the package again", err=True)
+        raise click.exceptions.Exit(1)
 
 
 def _version(name: str) -> str:

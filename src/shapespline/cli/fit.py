@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-import typer
+import click
 
 import shapespline as ss
 from shapespline.cli import options, settings_file
+from shapespline.cli.declared import Option
 from shapespline.cli.gathering import gathers
-from shapespline.cli.jobs import point_progress
 from shapespline.cli.panels import FIT, OUTPUT
 from shapespline.cli.places import never_the_input
 from shapespline.cli.reports import Report, drawing_record, drawing_remarks, drawing_text
@@ -64,7 +64,7 @@ class FitFile:
                 drawing = self.fitted(shape, source, say)
             else:
                 began = time.perf_counter()
-                drawing = self.fitted_in_passes(large)
+                drawing = self.fitted_in_passes(large, say)
             seconds = time.perf_counter() - began
             say(f"writing {target.name}")
             ss.write(target, drawing, **self.writing.given())
@@ -120,11 +120,15 @@ class FitFile:
             return None
         return points if isinstance(points, np.memmap) else None
 
-    def fitted_in_passes(self, points: np.memmap) -> ss.Drawing:
+    def fitted_in_passes(self, points: np.memmap, say: Callable[[str], None]) -> ss.Drawing:
         """The fit of one outline of any number of points."""
         options = self.settings.to_dict()
-        with point_progress() as progress:
-            fit = ss.fit_large(points, closed=self.reading.closed, progress=progress, **options)
+        fit = ss.fit_large(
+            points,
+            closed=self.reading.closed,
+            progress=lambda done, total: say(f"{done} of {total} points passed"),
+            **options,
+        )
         return ss.Drawing([fit])
 
     def picture(self, source: Path) -> Path | None:
@@ -151,142 +155,139 @@ class FitFile:
                 never_the_input(source, picture)
 
 
-# long: typer makes an option of the command of every parameter.
+# long: every parameter is an option of the command.
 @gathers(reading=options.Reading, writing=options.Writing)
 def fit(
-    context: typer.Context,
     sources: options.Inputs,
     output: options.OptionalOutput = None,
     ending: options.Format = None,
     tolerance: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--tolerance",
             "-t",
             help="Largest distance between data and curve, both ways: in the unit of the data, or a"
             " part of the box diagonal such as 0.1%.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = None,
     control_points: Annotated[
         int | None,
-        typer.Option(
+        Option(
             "--control-points",
             "-n",
             help="Control points of each curve (default without a tolerance: found from the"
             " noise of the points or from what they can show).",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = None,
     degree: options.Degree = 3,
     corners: Annotated[
         Literal["auto", "free", "none"],
-        typer.Option(
-            help="Keep corners, be free to round them, or know none.", rich_help_panel=FIT
-        ),
+        Option(help="Keep corners, be free to round them, or know none.", panel=FIT),
     ] = "auto",
     form: Annotated[
         Literal["pieces", "spline", "arcs"],
-        typer.Option(
+        Option(
             help="Lines, Beziers and splines; one spline; or lines and arcs (within a tolerance).",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = "pieces",
     effort: Annotated[
         Literal["fast", "balanced", "smallest"],
-        typer.Option(help="How long to search for a smaller curve.", rich_help_panel=FIT),
+        Option(help="How long to search for a smaller curve.", panel=FIT),
     ] = "balanced",
     ends: Annotated[
         Literal["free", "fixed"],
-        typer.Option(
+        Option(
             help="Of open curves: fixed ends are the first and last point, exactly.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = "free",
     symmetric: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--symmetric",
             help="Keep a mirror symmetry of closed outlines exactly.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = False,
     character: Annotated[
         Literal["fewest", "drawn"],
-        typer.Option(
+        Option(
             help="The fewest points, or lines, arcs and corners as they were drawn first.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = "fewest",
     regularities: Annotated[
         str,
-        typer.Option(
+        Option(
             help="With --character drawn, what may be kept exactly: auto, none, or names such as"
             " axis-parallel,tangent.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = "auto",
     outliers: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--outliers",
             help="Leave out points that jump off the path and back.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = False,
     sigma: Annotated[
         str | None,
-        typer.Option(
+        Option(
             metavar="LENGTH|COLUMNS",
             help="Error of the points, one standard deviation: a length, or the column of a table"
             " (two for x and y), by name or as @3; the result says how sure it is.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = None,
     loss: Annotated[
         Literal["huber", "tukey"] | None,
-        typer.Option(
+        Option(
             help="Large errors of the points count less, or no more; without a tolerance.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = None,
     shared_boundaries: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--shared-boundaries",
             help="Boundaries of two outlines are fitted once.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = False,
     time_limit: Annotated[
         float | None,
-        typer.Option(
+        Option(
             help="Seconds for each curve; the best one so far is written after them.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             help="Also draw data, control polygon, curve and error as a PNG picture; a folder for"
             " many inputs.",
-            rich_help_panel=OUTPUT,
+            panel=OUTPUT,
         ),
     ] = None,
     settings_path: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             "--settings",
             help="Settings of the fit from a TOML or JSON file; what is typed goes before it.",
-            rich_help_panel=FIT,
+            panel=FIT,
         ),
     ] = None,
     save_settings: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             "--save-settings",
             help="Write the settings of this fit to a file.",
-            rich_help_panel=OUTPUT,
+            panel=OUTPUT,
         ),
     ] = None,
     force: options.Force = False,
@@ -319,7 +320,7 @@ def fit(
         "time_limit": time_limit,
     }
     if settings_path is not None:
-        typed = {name: value for name, value in asked.items() if _typed(context, name)}
+        typed = {name: value for name, value in asked.items() if _typed(name)}
         asked = settings_file.merged(settings_file.load(settings_path), typed)
     asked, writing = _as_arcs(asked, writing, ending or Path(output or "").suffix)
     sigma_columns = None if sigma is None or asked.get("sigma") is not None else sigma
@@ -388,7 +389,7 @@ def _regularities(said: str) -> str | tuple[str, ...] | None:
     return tuple(name.strip() for name in said.split(","))
 
 
-def _typed(context: typer.Context, setting: str) -> bool:
+def _typed(setting: str) -> bool:
     """Whether a setting was given on the command line, be it its default."""
-    source = context.get_parameter_source(PARAMETERS.get(setting, setting))
+    source = click.get_current_context().get_parameter_source(PARAMETERS.get(setting, setting))
     return source is not None and source.name == "COMMANDLINE"

@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 def gathers(**groups: type[Any]) -> Callable[[Command], Command]:
     """Give a command the options of groups, each gathered in the argument that it is named for.
 
-    Typer builds options from a signature; the command's gets the fields of the groups in place of
+    Options are built from a signature; the command's gets the fields of the groups in place of
     the arguments that take them.
     """
 
     def decorate(command: Command) -> Command:
         own = inspect.signature(command, eval_str=True)
-        options = {name: _parameters(group) for name, group in groups.items()}
+        options = {name: _parameters(group) for name, group in groups.items()}  # type: ignore[arg-type]
 
         @functools.wraps(command)
         def gathered(**given: Any) -> Any:
@@ -37,14 +37,13 @@ def gathers(**groups: type[Any]) -> Callable[[Command], Command]:
             if parameter.name not in groups
         ]
         parameters += [option for found in options.values() for option in found]
-        # Typer reads both.
         gathered.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-        gathered.__annotations__ = {item.name: item.annotation for item in parameters}
         return gathered
 
     return decorate
 
 
+@functools.cache
 def _parameters(group: type[Any]) -> list[inspect.Parameter]:
     hints = get_type_hints(group, include_extras=True)
     return [

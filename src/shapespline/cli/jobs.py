@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import signal
-import sys
 import warnings
 from typing import TYPE_CHECKING
 
 import shapespline as ss
 from shapespline.cli.reports import Report
+from shapespline.cli.waiting import said_when_long
+from shapespline.errors import require
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from concurrent.futures import Executor, Future
     from pathlib import Path
-
-    from rich.progress import Progress, ProgressColumn
 
     Work = Callable[[Path, Path], Report]
 
@@ -32,11 +31,15 @@ def run_all(
 
     On Ctrl-C the work that has begun is finished, no other begins.
     """
-    with _progress(len(pairs)) as advance, _executor(n_jobs, len(pairs), scheduler) as executor:
+    total = len(pairs)
+    with said_when_long(total > 1) as say, _executor(n_jobs, total, scheduler) as executor:
+        say(f"0 of {total} files")
         if executor is None:
-            for source, target in pairs:
-                yield _guarded(work, source, target)
-                advance()
+            for done, (source, target) in enumerate(pairs, 1):
+                report = _guarded(work, source, target)
+                say.hide()
+                yield report
+                say(f"{done} of {total} files")
             return
         from concurrent.futures import as_completed
 
@@ -44,13 +47,14 @@ def run_all(
             executor.submit(_guarded, work, source, target): source for source, target in pairs
         }
         try:
-            for future in as_completed(futures):
+            for done, future in enumerate(as_completed(futures), 1):
                 error = future.exception()
+                say.hide()
                 if error is None:
                     yield future.result()
                 else:
                     yield Report(str(futures[future]), error=f"a worker failed: {error!r}")
-                advance()
+                say(f"{done} of {total} files")
         finally:
             for future in futures:
                 future.cancel()
@@ -72,12 +76,9 @@ def _guarded(work: Work, source: Path, target: Path) -> Report:
 @contextlib.contextmanager
 def _executor(n_jobs: int, n_pairs: int, scheduler: str | None) -> Iterator[Executor | None]:
     if scheduler is not None:
-        try:
-            from dask.distributed import Client
-        except ImportError as error:
-            raise ss.MissingExtraError(
-                "--scheduler needs dask: pip install 'shapespline[cluster]'"
-            ) from error
+        require("dask.distributed", "cluster", "--scheduler needs")
+        from dask.distributed import Client
+
         try:
             client = Client(scheduler, timeout="10s")  # type: ignore[no-untyped-call]
         except (OSError, ValueError) as error:
@@ -96,39 +97,3 @@ def _executor(n_jobs: int, n_pairs: int, scheduler: str | None) -> Iterator[Exec
 def _leave_to_parent() -> None:
     """Ctrl-C reaches the workers too: they finish the file in hand, the parent stops the rest."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-@contextlib.contextmanager
-def _progress(total: int) -> Iterator[Callable[[], object]]:
-    """A bar on a terminal, nothing in a pipe."""
-    if total == 1 or not sys.stderr.isatty():
-        yield lambda: None
-        return
-    from rich.progress import MofNCompleteColumn
-
-    with _bar(MofNCompleteColumn()) as bar:
-        task = bar.add_task("", total=total)
-        yield lambda: bar.advance(task)
-
-
-@contextlib.contextmanager
-def point_progress() -> Iterator[Callable[[int, int], object] | None]:
-    """A bar of the points passed of one long outline; not beside other workers."""
-    import multiprocessing
-
-    if not sys.stderr.isatty() or multiprocessing.parent_process() is not None:
-        yield None
-        return
-    from rich.progress import TaskProgressColumn
-
-    with _bar(TaskProgressColumn()) as bar:
-        task = bar.add_task("")
-        yield lambda done, total: bar.update(task, completed=done, total=total)
-
-
-def _bar(how_far: ProgressColumn) -> Progress:
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TimeRemainingColumn
-
-    columns = (BarColumn(), how_far, TimeRemainingColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True)

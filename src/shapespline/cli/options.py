@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass, fields
-from enum import StrEnum
-from pathlib import Path  # noqa: TC003 - typer reads annotations
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from pathlib import Path  # noqa: TC003 - annotations are read
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import shapespline as ss
+from shapespline.cli.declared import Argument, Option
 from shapespline.cli.panels import FIT, INPUT, OUTPUT, PICTURE, RUN
 from shapespline.cli.widths import read_wide
 
@@ -28,173 +26,142 @@ if TYPE_CHECKING:
 SAMPLING_PART = 0.02
 
 
-class Selection(StrEnum):
-    """Which outlines of a picture to take."""
-
-    all = "all"
-    longest = "longest"
-
-
-class Polarity(StrEnum):
-    """Whether the shapes of a picture are darker or lighter than its ground."""
-
-    auto = "auto"
-    dark = "dark"
-    light = "light"
-
-
-class Channel(StrEnum):
-    """The value of a pixel."""
-
-    auto = "auto"
-    grey = "grey"
-    red = "red"
-    green = "green"
-    blue = "blue"
-    alpha = "alpha"
-    difference = "difference"
-
-
 @dataclass(frozen=True)
 class Reading:
     """How to read an input; every field is an option of the command line."""
 
     closed: Annotated[
         bool | None,
-        typer.Option(
+        Option(
             "--closed/--open",
             help="Whether the outline is closed (default: found).",
-            rich_help_panel=INPUT,
+            panel=INPUT,
         ),
     ] = None
     y_down: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--y-down",
             help="The y axis of the outline file runs down (CSV, NPY).",
-            rich_help_panel=INPUT,
+            panel=INPUT,
         ),
     ] = False
     unordered: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--unordered",
             help="The points of the file are in no order: find it.",
-            rich_help_panel=INPUT,
+            panel=INPUT,
         ),
     ] = False
     level: Annotated[
         float | None,
-        typer.Option(
+        Option(
             help="Grey level between shape and ground of a picture (default: Otsu).",
-            rich_help_panel=PICTURE,
+            panel=PICTURE,
         ),
     ] = None
     polarity: Annotated[
-        Polarity,
-        typer.Option(
-            help="Dark shapes on light ground, or light on dark.", rich_help_panel=PICTURE
-        ),
-    ] = Polarity.auto
+        Literal["auto", "dark", "light"],
+        Option(help="Dark shapes on light ground, or light on dark.", panel=PICTURE),
+    ] = "auto"
     channel: Annotated[
-        Channel,
-        typer.Option(help="What is cut at the level in a picture.", rich_help_panel=PICTURE),
-    ] = Channel.auto
+        Literal["auto", "grey", "red", "green", "blue", "alpha", "difference"],
+        Option(help="What is cut at the level in a picture.", panel=PICTURE),
+    ] = "auto"
     color: Annotated[
         str | None,
-        typer.Option(
+        Option(
             help="The shape of a picture is what has this colour: #ff8800, red, or @column,row of a"
             " pixel.",
-            rich_help_panel=PICTURE,
+            panel=PICTURE,
         ),
     ] = None
     invert: Annotated[
         bool,
-        typer.Option(
-            "--invert", help="Of a picture: the ground is the shape.", rich_help_panel=PICTURE
-        ),
+        Option("--invert", help="Of a picture: the ground is the shape.", panel=PICTURE),
     ] = False
     local: Annotated[
         str,
-        typer.Option(
+        Option(
             help="Whether the level follows uneven light: auto, off, or a window in pixels.",
-            rich_help_panel=PICTURE,
+            panel=PICTURE,
         ),
     ] = "auto"
     blur: Annotated[
         float | None,
-        typer.Option(
+        Option(
             help="Blur a picture before it is cut, pixels (for grain and screens).",
-            rich_help_panel=PICTURE,
+            panel=PICTURE,
         ),
     ] = None
     crop: Annotated[
         str | None,
-        typer.Option(
+        Option(
             help="The part of a picture to look at: column,row,width,height.",
-            rich_help_panel=PICTURE,
+            panel=PICTURE,
         ),
     ] = None
     colors: Annotated[
         str | None,
-        typer.Option(
+        Option(
             help="Areas of so many colours of a picture, or auto, instead of ink; neighbours share"
             " their borders.",
-            rich_help_panel=PICTURE,
+            panel=PICTURE,
         ),
     ] = None
     centerline: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--centerline",
             help="Centre lines of strokes, not their outlines.",
-            rich_help_panel=PICTURE,
+            panel=PICTURE,
         ),
     ] = False
     contours: Annotated[
-        Selection,
-        typer.Option(help="Outlines of a picture: all, or the longest.", rich_help_panel=PICTURE),
-    ] = Selection.all
+        Literal["all", "longest"],
+        Option(help="Outlines of a picture: all, or the longest.", panel=PICTURE),
+    ] = "all"
     min_area: Annotated[
         float | None,
-        typer.Option(help="Smallest outline of a picture, square pixels.", rich_help_panel=PICTURE),
+        Option(help="Smallest outline of a picture, square pixels.", panel=PICTURE),
     ] = None
     unit: Annotated[
         str | None,
-        typer.Option(
+        Option(
             help="Unit to work in, such as mm or in: numbers are converted if the file says its"
             " unit, else they are in this one.",
-            rich_help_panel=INPUT,
+            panel=INPUT,
         ),
     ] = None
     scale: Annotated[
         float | None,
-        typer.Option(
+        Option(
             help="Factor for all numbers; of a picture, the units that a pixel measures.",
-            rich_help_panel=INPUT,
+            panel=INPUT,
         ),
     ] = None
     dpi: Annotated[
         float | None,
-        typer.Option(
+        Option(
             help="Pixels per inch, of pictures (unit: mm if none is named).",
-            rich_help_panel=PICTURE,
+            panel=PICTURE,
         ),
     ] = None
 
     width: Annotated[
         float | None,
-        typer.Option(
+        Option(
             help="Width of all outlines together, in the --unit, whatever numbers the file holds.",
-            rich_help_panel=INPUT,
+            panel=INPUT,
         ),
     ] = None
     columns: Annotated[
         str | None,
-        typer.Option(
+        Option(
             metavar="X,Y",
             help="Columns of a table that hold x and y, by name or number from 1, such as 2,3.",
-            rich_help_panel=INPUT,
+            panel=INPUT,
         ),
     ] = None
 
@@ -238,55 +205,53 @@ class Writing:
 
     arcs: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--arcs",
             help="Lines and arcs within the tolerance, for machines that know no splines.",
-            rich_help_panel=OUTPUT,
+            panel=OUTPUT,
         ),
     ] = False
     arc_tolerance: Annotated[
         float | None,
-        typer.Option(
+        Option(
             help="Largest distance of arcs to a curve that they are made of, on top of the"
             " tolerance of the fit (default: a quarter of it).",
-            rich_help_panel=OUTPUT,
+            panel=OUTPUT,
         ),
     ] = None
     band: Annotated[
         float | None,
-        typer.Option(
+        Option(
             help="Draw the band that holds the true curve at each place with this probability, such"
             " as 0.95 (SVG, with --sigma).",
-            rich_help_panel=OUTPUT,
+            panel=OUTPUT,
         ),
     ] = None
     release: Annotated[
         str | None,
-        typer.Option(
+        Option(
             "--dxf-release",
             help="R2000 (the default), or R12 for old machines: polylines of lines and arcs.",
-            rich_help_panel=OUTPUT,
+            panel=OUTPUT,
         ),
     ] = None
     feed: Annotated[
         float | None,
-        typer.Option(help="G-code: units a minute (default: 500 mm).", rich_help_panel=OUTPUT),
+        Option(help="G-code: units a minute (default: 500 mm).", panel=OUTPUT),
     ] = None
     depth: Annotated[
         float | None,
-        typer.Option(help="G-code: how far below Z0 the tool cuts.", rich_help_panel=OUTPUT),
+        Option(help="G-code: how far below Z0 the tool cuts.", panel=OUTPUT),
     ] = None
     safe_height: Annotated[
         float | None,
-        typer.Option(
-            help="G-code: height above Z0 between outlines (default: 5 mm).", rich_help_panel=OUTPUT
-        ),
+        Option(help="G-code: height above Z0 between outlines (default: 5 mm).", panel=OUTPUT),
     ] = None
     chord: Annotated[
         float | None,
-        typer.Option(
+        Option(
             help="Largest distance between curve and polyline (CSV, GeoJSON), data unit.",
-            rich_help_panel=OUTPUT,
+            panel=OUTPUT,
         ),
     ] = None
 
@@ -306,84 +271,75 @@ def _given(options: Reading | Writing) -> dict[str, Any]:
 
 Inputs = Annotated[
     list[str],
-    typer.Argument(
-        metavar="INPUT",
+    Argument(
+        "INPUT...",
         help="Files, folders or patterns: outlines (CSV, TXT, NPY), pictures (PNG, JPEG, TIFF,"
         " BMP), drawings (SVG, DXF, JSON and more); - for standard input.",
-        show_default=False,
-        rich_help_panel=INPUT,
+        panel=INPUT,
     ),
 ]
 Input = Annotated[
     str,
-    typer.Argument(metavar="INPUT", help="A file; - for standard input.", rich_help_panel=INPUT),
+    Argument("INPUT", help="A file; - for standard input.", panel=INPUT),
 ]
 Force = Annotated[
     bool,
-    typer.Option(
-        "--force", help="Replace a file that exists beside the input.", rich_help_panel=OUTPUT
-    ),
+    Option("--force", help="Replace a file that exists beside the input.", panel=OUTPUT),
 ]
 OptionalOutput = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--output",
         "-o",
         help="File to write, its format told by its ending, or a folder for many; - for standard"
         " output (default: an SVG beside the input).",
-        rich_help_panel=OUTPUT,
+        panel=OUTPUT,
     ),
 ]
 Output = Annotated[
     str,
-    typer.Option(
+    Option(
         "--output",
         "-o",
         help="File to write, or a folder for many; - for standard output.",
-        rich_help_panel=OUTPUT,
+        panel=OUTPUT,
     ),
 ]
 Format = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--format",
         "-f",
         help="Ending of the files to write into a folder or standard output.",
-        rich_help_panel=OUTPUT,
+        panel=OUTPUT,
     ),
 ]
 StdinFormat = Annotated[
     str,
-    typer.Option(
+    Option(
         "--stdin-format",
         help="Ending that standard input would have as a file.",
-        rich_help_panel=INPUT,
+        panel=INPUT,
     ),
 ]
 Jobs = Annotated[
     int,
-    typer.Option(
-        "--jobs", "-j", min=1, help="Files to work on at the same time.", rich_help_panel=RUN
-    ),
+    Option("--jobs", "-j", least=1, help="Files to work on at the same time.", panel=RUN),
 ]
 Scheduler = Annotated[
     str | None,
-    typer.Option(
-        help="Address of a dask scheduler to work on, such as tcp://host:8786.", rich_help_panel=RUN
-    ),
+    Option(help="Address of a dask scheduler to work on, such as tcp://host:8786.", panel=RUN),
 ]
 Resume = Annotated[
     bool,
-    typer.Option(
+    Option(
         "--resume",
         help="Skip inputs whose output is there and newer than they are.",
-        rich_help_panel=RUN,
+        panel=RUN,
     ),
 ]
 AsJson = Annotated[
     bool,
-    typer.Option(
-        "--json", help="Print one line of JSON for each input, for scripts.", rich_help_panel=OUTPUT
-    ),
+    Option("--json", help="Print one line of JSON for each input, for scripts.", panel=OUTPUT),
 ]
-Degree = Annotated[int, typer.Option(help="Degree of the curve, 1 to 9.", rich_help_panel=FIT)]
+Degree = Annotated[int, Option(help="Degree of the curve, 1 to 9.", panel=FIT)]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from typer.core import TyperCommand
+import click
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
 INPUT, PICTURE, FIT, OUTPUT, RUN = "Input", "Pictures", "Fit", "Output", "Run"
 PANELS = (INPUT, PICTURE, FIT, OUTPUT, RUN)
@@ -26,17 +26,35 @@ EXIT_CODES = (
 )
 
 
-class PanelCommand(TyperCommand):
-    """A command whose help shows its options in panels."""
+class PanelCommand(click.Command):
+    """A command whose help shows its options in panels, and says what its arguments are.
 
-    def format_options(self, ctx: Any, formatter: Any) -> None:
+    Parameters
+    ----------
+    panels : mapping
+        Name of a parameter -> its panel.
+    arguments : mapping
+        Name of an argument -> how it is written, and its help.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        panels: Mapping[str, str],
+        arguments: Mapping[str, tuple[str, str]],
+        **more: Any,
+    ) -> None:
+        super().__init__(name, **more)
+        self.panels, self.arguments = panels, arguments
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write one section for each panel that has options."""
         rows: dict[str, list[tuple[str, str]]] = {}
         for parameter in self.get_params(ctx):
-            record = parameter.get_help_record(ctx)
+            name = parameter.name or ""
+            record = self.arguments.get(name) or parameter.get_help_record(ctx)
             if record is not None:
-                panel = getattr(parameter, "rich_help_panel", None) or OTHERS
-                rows.setdefault(panel, []).append(record)
+                rows.setdefault(self.panels.get(name, OTHERS), []).append(record)
         for panel in (*PANELS, OTHERS):
             if panel in rows:
                 with formatter.section(panel):

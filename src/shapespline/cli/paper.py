@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-import typer
+import click
 
 from shapespline.cli import options
+from shapespline.cli.declared import Option
 from shapespline.cli.gathering import gathers
 
 
@@ -18,27 +19,25 @@ class Method:
 
     length: Annotated[
         int | None,
-        typer.Option("--length", "-L", help="Chord length L of the CPDA, in points (default: 8)."),
+        Option("--length", "-L", help="Chord length L of the CPDA, in points (default: 8)."),
     ] = None
-    arc_length: Annotated[
-        float | None, typer.Option(help="The same as a length in data units.")
-    ] = None
-    literal: Annotated[
-        bool, typer.Option("--literal", help="Take the paper at its word everywhere.")
-    ] = False
+    arc_length: Annotated[float | None, Option(help="The same as a length in data units.")] = None
+    literal: Annotated[bool, Option("--literal", help="Take the paper at its word everywhere.")] = (
+        False
+    )
     reading: Annotated[
         list[str] | None,
-        typer.Option(
+        Option(
             metavar="FIELD=VALUE",
             help="One field of the reading, such as window=7 or start=park-lee; as often as you"
             " like.",
         ),
     ] = None
     method: Annotated[
-        str | None, typer.Option(help="Optimiser, such as levenberg-marquardt or l-bfgs.")
+        str | None, Option(help="Optimiser, such as levenberg-marquardt or l-bfgs.")
     ] = None
     n_control_points: Annotated[
-        int | None, typer.Option("--control-points", "-n", help="Number of control points.")
+        int | None, Option("--control-points", "-n", help="Number of control points.")
     ] = None
     degree: options.Degree = 3
 
@@ -48,7 +47,7 @@ def paper(
     path: options.Input,
     output: Annotated[
         Path,
-        typer.Option("--output", "-o", help="Folder for the figures and the files."),
+        Option("--output", "-o", help="Folder for the figures and the files."),
     ],
     *,
     how: Method,
@@ -74,4 +73,4 @@ def paper(
         )
         output.mkdir(exist_ok=True)
         for file in write_report(run, folder):
-            typer.echo(str(file))
+            click.echo(str(file))

@@ -6,7 +6,7 @@ import contextlib
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-import typer
+import click
 
 import shapespline as ss
 from shapespline.cli import places
@@ -56,7 +56,7 @@ def run_files(
 
     Raises
     ------
-    typer.Exit
+    click.exceptions.Exit
         With code 1 if an input failed; the others have been written. With code 3 if all were
         written, and a curve keeps less than its tolerance.
     """
@@ -81,6 +81,6 @@ def run_files(
             n_failed += report.error is not None
             n_exceeded += report.exceeded
     if n_failed:
-        raise typer.Exit(1)
+        raise click.exceptions.Exit(1)
     if n_exceeded:
-        raise typer.Exit(EXCEEDED)
+        raise click.exceptions.Exit(EXCEEDED)

@@ -9,7 +9,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
 # Seconds of silence that nobody minds, and between two lines after them.
 PATIENCE = 2.0
@@ -17,44 +17,56 @@ EVERY = 0.5
 
 
 @contextlib.contextmanager
-def said_when_long(on: bool = True) -> Iterator[Callable[[str], None]]:
+def said_when_long(on: bool = True) -> Iterator[Line]:
     """Take sentences on what is going on; the last one is shown, with the seconds it has taken.
 
     Nothing is shown within two seconds, nor where standard error is no terminal.
     """
+    line = Line()
     if not (on and sys.stderr.isatty()):
-        yield lambda sentence: None
+        yield line
         return
-    line = _Line()
     thread = threading.Thread(target=line.run, daemon=True)
     thread.start()
     try:
-        yield line.say
+        yield line
     finally:
         line.over.set()
         thread.join()
 
 
-class _Line:
+class Line:
     """One line of a terminal, written again and again, gone at the end."""
 
     def __init__(self) -> None:
         self.over = threading.Event()
+        self._writing = threading.Lock()
         self._sentence = ""
         self._began = monotonic()
+        self._shown = 0
 
-    def say(self, sentence: str) -> None:
+    def __call__(self, sentence: str) -> None:
+        """What is going on from now on."""
         self._sentence = sentence
 
+    def hide(self) -> None:
+        """Make room for a line that stays; the next sentence is shown again."""
+        with self._writing:
+            self._sentence = ""
+            if self._shown:
+                self._write("")
+
     def run(self) -> None:
-        shown = 0
+        """Show the sentences until it is over."""
         wait = PATIENCE
         while not self.over.wait(wait):
             wait = EVERY
-            text = f"{self._sentence}, {monotonic() - self._began:.0f} s"
-            sys.stderr.write(f"\r{text.ljust(shown)}")
-            sys.stderr.flush()
-            shown = len(text)
-        if shown:
-            sys.stderr.write(f"\r{' ' * shown}\r")
-            sys.stderr.flush()
+            with self._writing:
+                if self._sentence:
+                    self._write(f"{self._sentence}, {monotonic() - self._began:.0f} s")
+        self.hide()
+
+    def _write(self, text: str) -> None:
+        sys.stderr.write(f"\r{text.ljust(self._shown)}" + ("" if text else "\r"))
+        sys.stderr.flush()
+        self._shown = len(text)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.errors import MissingExtraError
+from shapespline.errors import require
 from shapespline.formats.cubics import groups
 from shapespline.geometry import as_drawing, sampled, signed_area
 
@@ -79,24 +79,18 @@ def _ring(fit: Fit, chord: float | None, *, counter_clockwise: bool) -> list[lis
 
 def shapely_geometry(value: Drawable, chord: float | None = None) -> Any:
     """What `Exchanged.to_shapely` returns."""
-    try:
-        from shapely.geometry import shape
-    except ImportError as error:
-        raise MissingExtraError(
-            "to_shapely needs shapely: pip install 'shapespline[geo]'"
-        ) from error
+    require("shapely", "geo", "to_shapely needs")
+    from shapely.geometry import shape
+
     return shape(geometry_of(value, chord))
 
 
 def geopandas_series(value: Drawable, chord: float | None = None) -> Any:
     """What `Exchanged.to_geopandas` returns."""
-    try:
-        from geopandas import GeoSeries
-        from shapely.geometry import shape
-    except ImportError as error:
-        raise MissingExtraError(
-            "to_geopandas needs geopandas: pip install 'shapespline[geo]'"
-        ) from error
+    require("geopandas", "geo", "to_geopandas needs")
+    from geopandas import GeoSeries
+    from shapely.geometry import shape
+
     drawing = as_drawing(value)
     return GeoSeries([shape(one) for one in geometries(drawing, chord)], crs=drawing.reference)
 

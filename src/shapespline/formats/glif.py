@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from shapespline.errors import FormatError, InvalidInputError, MissingExtraError
+from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats.pens import draw_with_pen, outlines_of
 from shapespline.validation import is_number
 
@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from shapespline.geometry import Outlines
     from shapespline.values import Drawing
 
-MISSING = "GLIF files need fontTools: pip install 'shapespline[fonts]'"
 FORMAT_VERSION = 2
 
 
@@ -36,16 +35,12 @@ def read(path: Path) -> Outlines:
     ------
     FormatError
         If the file is no GLIF, or draws nothing.
-    MissingExtraError
-        Without fontTools.
     """
-    try:
-        from fontTools.pens.pointPen import PointToSegmentPen
-        from fontTools.pens.recordingPen import RecordingPointPen
-        from fontTools.ufoLib.errors import GlifLibError, UFOLibError
-        from fontTools.ufoLib.glifLib import GlyphSet, readGlyphFromString
-    except ImportError as error:
-        raise MissingExtraError(MISSING) from error
+    from fontTools.pens.pointPen import PointToSegmentPen
+    from fontTools.pens.recordingPen import RecordingPointPen
+    from fontTools.ufoLib.errors import GlifLibError, UFOLibError
+    from fontTools.ufoLib.glifLib import GlyphSet, readGlyphFromString
+
     points = RecordingPointPen()
     try:
         readGlyphFromString(path.read_text(encoding="utf-8"), _Glyph(), points)
@@ -88,14 +83,10 @@ def encode(
     ------
     InvalidInputError
         If the name is empty, ``codepoint`` is not one character, or the width is negative.
-    MissingExtraError
-        Without fontTools.
     """
-    try:
-        from fontTools.pens.pointPen import SegmentToPointPen
-        from fontTools.ufoLib.glifLib import writeGlyphToString
-    except ImportError as error:
-        raise MissingExtraError(MISSING) from error
+    from fontTools.pens.pointPen import SegmentToPointPen
+    from fontTools.ufoLib.glifLib import writeGlyphToString
+
     if not (isinstance(glyph, str) and glyph):
         raise InvalidInputError(f"glyph must be a name such as 'A', got {glyph!r}")
     if codepoint is not None and not (isinstance(codepoint, str) and len(codepoint) == 1):

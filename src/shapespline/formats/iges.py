@@ -30,12 +30,9 @@ def encode(drawing: Drawing) -> bytes:
 
     Raises
     ------
-    MissingExtraError
-        If OpenCASCADE is not installed.
     FormatError
         If a piece is too small for it.
     """
-    occ.require()
     from OCP.IGESControl import IGESControl_Controller, IGESControl_Writer
 
     unit = drawing.unit if drawing.unit in UNITS else "mm"
@@ -57,8 +54,6 @@ def read(path: Path) -> Outlines:
 
     Raises
     ------
-    MissingExtraError
-        If OpenCASCADE is not installed.
     FormatError
         If the file is no IGES file, holds no curve, or one that is not plane.
     """
@@ -68,7 +63,6 @@ def read(path: Path) -> Outlines:
         raise FormatError("this is no whole IGES file: a line without its section letter")
     if lines[-1][72:73] != b"T":
         raise FormatError("the IGES file is cut off: its last section is missing")
-    occ.require()
     from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.IGESControl import IGESControl_Reader
 

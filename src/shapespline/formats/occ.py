@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.errors import FormatError, MissingExtraError
+from shapespline.errors import FormatError
 from shapespline.formats.chains import chained
 from shapespline.formats.cubics import groups
 from shapespline.formats.entities import entities
@@ -30,16 +30,6 @@ if TYPE_CHECKING:
 # Of the largest coordinate: what counts as the plane z = 0, and how near the cubics come that stand
 # for ellipses and other rational curves.
 FLAT, CONVERTED = 1e-9, 1e-10
-
-
-def require() -> None:
-    """Raise a sentence unless OpenCASCADE is there."""
-    try:
-        import OCP.Geom  # noqa: F401
-    except ImportError as error:
-        raise MissingExtraError(
-            "STEP and IGES files need OpenCASCADE: pip install 'shapespline[cad]'"
-        ) from error
 
 
 def wires(drawing: Drawing, scale: float) -> Any:

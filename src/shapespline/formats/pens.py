@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.errors import FormatError, MissingExtraError, SkippedContentWarning, caller_level
+from shapespline.errors import FormatError, SkippedContentWarning, caller_level, require
 from shapespline.formats.cubics import as_cubics, elevated, is_straight
 from shapespline.formats.pieces import bezier, closed_up
 from shapespline.geometry import Outlines, as_drawing, signed_area
@@ -97,13 +97,10 @@ def outlines_of(glyph: Any, glyph_set: Any = None) -> Outlines:
     SkippedContentWarning
         If components are in no glyph set: those are left out.
     """
-    try:
-        from fontTools.pens.basePen import MissingComponentError
-        from fontTools.pens.recordingPen import DecomposingRecordingPen, RecordingPen
-    except ImportError as error:
-        raise MissingExtraError(
-            "glyphs need fontTools: pip install 'shapespline[fonts]'"
-        ) from error
+    require("fontTools.pens", "fonts", "glyphs need")
+    from fontTools.pens.basePen import MissingComponentError
+    from fontTools.pens.recordingPen import DecomposingRecordingPen, RecordingPen
+
     known = getattr(glyph, "glyphSet", {}) if glyph_set is None else glyph_set
     pen = DecomposingRecordingPen(known)
     try:

@@ -22,6 +22,7 @@ from shapespline.errors import (
     ShapesplineError,
     UnknownFormatError,
     caller_level,
+    require,
 )
 from shapespline.formats.atomic import check_target, write_atomically
 from shapespline.formats.known import known_options
@@ -59,6 +60,7 @@ class Format:
     reads: bool = False
     writes: bool = False
     arcs: bool = True
+    needs: tuple[str, str] | None = None  # a module, and the extra that brings it
 
 
 FORMATS = (
@@ -75,15 +77,23 @@ FORMATS = (
     Format("picture", (".png",), "picture", writes=True),
     Format("SVG", (".svg",), "svg_reader", reads=True),
     Format("SVG", (".svg",), "svg_writer", writes=True),
-    Format("DXF", (".dxf",), "dxf_reader", reads=True),
-    Format("DXF", (".dxf",), "dxf_writer", writes=True),
+    Format("DXF", (".dxf",), "dxf_reader", reads=True, needs=("ezdxf", "dxf")),
+    Format("DXF", (".dxf",), "dxf_writer", writes=True, needs=("ezdxf", "dxf")),
     Format("JSON", (".json",), "json", reads=True, writes=True),
-    Format("STEP", (".step", ".stp"), "step", reads=True, writes=True),
-    Format("IGES", (".iges", ".igs"), "iges", reads=True, writes=True),
-    Format("3dm", (".3dm",), "rhino", reads=True, writes=True),
+    Format("STEP", (".step", ".stp"), "step", reads=True, writes=True, needs=("OCP.Geom", "cad")),
+    Format("IGES", (".iges", ".igs"), "iges", reads=True, writes=True, needs=("OCP.Geom", "cad")),
+    Format("3dm", (".3dm",), "rhino", reads=True, writes=True, needs=("rhino3dm", "rhino")),
     Format("GeoJSON", (".geojson",), "geojson", reads=True, writes=True, arcs=False),
     Format("G-code", (".nc",), "gcode", writes=True),
-    Format("GLIF", (".glif",), "glif", reads=True, writes=True, arcs=False),
+    Format(
+        "GLIF",
+        (".glif",),
+        "glif",
+        reads=True,
+        writes=True,
+        arcs=False,
+        needs=("fontTools.ufoLib", "fonts"),
+    ),
     Format("PDF", (".pdf",), "pdf", writes=True, arcs=False),
     Format("Python", (".py",), "python", writes=True),
 )
@@ -141,6 +151,8 @@ def read(
     ------
     UnknownFormatError
         If no reader is registered for the ending.
+    MissingExtraError
+        If the format needs a package that is not installed.
     InvalidInputError
         If the format does not take an option.
     FormatError
@@ -208,6 +220,8 @@ def check_output(path: str | os.PathLike[str], **options: object) -> None:
         If no writer is registered for the ending.
     FormatError
         If the folder does not exist or the file cannot be written.
+    MissingExtraError
+        If the format needs a package that is not installed.
     InvalidInputError
         If the format does not take an option.
     """
@@ -244,6 +258,8 @@ def write(
     ------
     UnknownFormatError
         If no writer is registered for the ending.
+    MissingExtraError
+        If the format needs a package that is not installed.
     InvalidInputError
         If the format does not take an option.
     FormatError
@@ -299,6 +315,8 @@ def _function(path: Path, name: str) -> Callable[..., object]:
     suffix = path.suffix.lower()
     for entry in FORMATS:
         if suffix in entry.suffixes and (entry.reads if name == "read" else entry.writes):
+            if entry.needs is not None:
+                require(*entry.needs, f"{entry.name} files need")
             module = import_module(f"shapespline.formats.{entry.module}")
             return cast("Callable[..., object]", getattr(module, name))
     role, verb, known = (

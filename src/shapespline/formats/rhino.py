@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.errors import FormatError, MissingExtraError
+from shapespline.errors import FormatError
 from shapespline.formats.chains import chained
 from shapespline.formats.entities import entities
 from shapespline.geometry import Outlines
@@ -35,16 +35,6 @@ VERSION = 6
 FLAT = 1e-9
 
 
-def _rhino3dm() -> Any:
-    try:
-        import rhino3dm
-    except ImportError as error:
-        raise MissingExtraError(
-            "3dm files need rhino3dm: pip install 'shapespline[rhino]'"
-        ) from error
-    return rhino3dm
-
-
 def encode(drawing: Drawing) -> bytes:
     """Bytes of a 3dm file.
 
@@ -52,13 +42,9 @@ def encode(drawing: Drawing) -> bytes:
     ----------
     drawing : Drawing
         In its unit, where Rhino knows it.
-
-    Raises
-    ------
-    MissingExtraError
-        If rhino3dm is not installed.
     """
-    rhino3dm = _rhino3dm()
+    import rhino3dm
+
     model = rhino3dm.File3dm()
     if drawing.unit in UNITS:
         model.Settings.ModelUnitSystem = getattr(rhino3dm.UnitSystem, UNITS[drawing.unit])
@@ -123,12 +109,11 @@ def read(path: Path) -> Outlines:
 
     Raises
     ------
-    MissingExtraError
-        If rhino3dm is not installed.
     FormatError
         If the file is no 3dm file, holds no curve, a rational one or one that is not plane.
     """
-    rhino3dm = _rhino3dm()
+    import rhino3dm
+
     if not path.read_bytes()[:32].startswith(b"3D Geometry File Format"):
         raise FormatError("this is no 3dm file: it does not begin with 3D Geometry File Format")
     model = rhino3dm.File3dm.Read(str(path))

@@ -40,12 +40,9 @@ def encode(drawing: Drawing) -> bytes:
 
     Raises
     ------
-    MissingExtraError
-        If OpenCASCADE is not installed.
     FormatError
         If a piece is too small for it: CAD takes points nearer than 1e-7 mm for one.
     """
-    occ.require()
     from OCP.Interface import Interface_Static
     from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
 
@@ -75,8 +72,6 @@ def read(path: Path) -> Outlines:
 
     Raises
     ------
-    MissingExtraError
-        If OpenCASCADE is not installed.
     FormatError
         If the file is no STEP file, holds no curve, or one that is not plane.
     """
@@ -85,7 +80,6 @@ def read(path: Path) -> Outlines:
         raise FormatError("this is no STEP file: it does not begin with ISO-10303-21")
     if b"END-ISO-10303-21" not in data[-1000:]:
         raise FormatError("the STEP file is cut off: it does not end with END-ISO-10303-21")
-    occ.require()
     from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.STEPControl import STEPControl_Reader
 

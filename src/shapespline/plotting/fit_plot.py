@@ -9,14 +9,13 @@ the same version of matplotlib.
 from __future__ import annotations
 
 import io
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from PIL import Image
 
-from shapespline.errors import InvalidInputError, MissingExtraError, UnknownFormatError
+from shapespline.errors import InvalidInputError, UnknownFormatError, require
 from shapespline.formats import check_target, write_atomically
 from shapespline.geometry import signed_area
 
@@ -142,10 +141,7 @@ def check_picture(path: str | os.PathLike[str]) -> None:
 
 def check_matplotlib() -> None:
     """Raise if matplotlib is not installed."""
-    if find_spec("matplotlib") is None:
-        raise MissingExtraError(
-            'pictures need matplotlib; install it with: pip install "shapespline[plot]"'
-        )
+    require("matplotlib", "plot", "pictures need")
 
 
 def new_figure(width: float, height: float) -> Figure:

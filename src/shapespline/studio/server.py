@@ -19,7 +19,7 @@ import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from shapespline.errors import InvalidInputError, MissingExtraError
+from shapespline.errors import InvalidInputError, require
 from shapespline.studio.asked import Asked
 from shapespline.studio.documents import MOST_BYTES, Document, opened, opened_example
 from shapespline.studio.examples import EXAMPLES
@@ -314,12 +314,8 @@ def _is_local(place: str) -> bool:
 
 
 def _uvicorn() -> Any:
-    try:
-        import starlette  # noqa: F401 - said here, not in the middle of a page
-        import uvicorn
-        import websockets  # noqa: F401
-    except ImportError as error:
-        raise MissingExtraError(
-            "the studio needs starlette, uvicorn and websockets: pip install 'shapespline[studio]'"
-        ) from error
+    for module in ("starlette", "uvicorn", "websockets"):  # said here, not amid a page
+        require(module, "studio", "the studio needs")
+    import uvicorn
+
     return uvicorn
