@@ -255,6 +255,24 @@ def test_standard_input_that_is_broken():
     assert b"line 2" in done.stderr
 
 
+def test_what_is_compared_may_differ_in_kind(shapespline, tmp_path):
+    table, curve, inches = (tmp_path / name for name in ("table.csv", "curve.svg", "inches.svg"))
+    points = flower(80).points
+    rows = "".join(f"{number},{x},{y}\n" for number, (x, y) in enumerate(points))
+    table.write_text("no,x,y\n" + rows)
+    code, _, err = shapespline("fit", table, "-o", curve)
+    assert (code, err.count("say which two: --columns 2,3\n")) == (1, 1)
+    columns = ("--columns", "x,y", "--closed")
+    assert shapespline("fit", table, *columns, "-n", 20, "-o", curve)[0] == 0
+    code, out, err = shapespline("compare", table, curve, *columns)
+    assert (code, err, out.count("\n")) == (0, "", 3)
+    assert shapespline("compare", curve, curve, "--columns", "x,y")[0] == 1  # of neither
+    ss.write(inches, ss.read(table, columns="x,y", closed=True), unit="in")
+    code, _, err = shapespline("compare", curve, inches)
+    assert code == 0
+    assert "in in: their numbers are compared; --unit says one for both" in err
+
+
 def test_compare_and_info(shapespline, tmp_path):
     drawing = tmp_path / "hand.json"
     assert shapespline("fit", HAND, "-t", 0.5, "-o", drawing)[0] == 0

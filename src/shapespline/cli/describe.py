@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,10 +13,15 @@ import shapespline as ss
 from shapespline.cli import options, places
 from shapespline.cli.gathering import gathers
 from shapespline.cli.jobs import run_all
-from shapespline.cli.reports import Report, drawing_record
+from shapespline.cli.reports import Report, drawing_record, say
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from shapespline import Drawing, Shape
+
+# What pixels and files that say no unit are in.
+NUMBERS = "pixels or plain numbers"
 
 
 @gathers(reading=options.Reading)
@@ -30,7 +35,13 @@ def compare(
 ) -> None:
     """Print how far the curves or outlines of two files lie apart, both ways."""
     with places.standard_input([first, second], stdin_format) as given:
-        a, b = (reading.read(Path(name)) for name in given)
+        a, b = (one.read(path) for path, one in _each(reading, Path(given[0]), Path(given[1])))
+    units = [NUMBERS if one.unit in (None, "px") else one.unit for one in (a, b)]
+    if units[0] != units[1]:
+        say(
+            f"{first} is in {units[0]}, {second} in {units[1]}: their numbers are compared;"
+            " --unit says one for both"
+        )
     found = ss.compare(a, b)
     if as_json:
         record = {**asdict(found), "hausdorff_distance": found.hausdorff_distance}
@@ -41,6 +52,20 @@ def compare(
     click.echo(
         f"two-sided distance {found.hausdorff_distance:.6g}, sampled every {found.spacing:.3g}"
     )
+
+
+def _each(
+    reading: options.Reading, first: Path, second: Path
+) -> Iterator[tuple[Path, options.Reading]]:
+    """The files with their options: one that only the format of the other takes is not theirs."""
+    from shapespline.formats import read_options
+
+    taken = set(read_options(first)), set(read_options(second))
+    for path, own, other in zip((first, second), taken, reversed(taken), strict=True):
+        theirs: dict[str, Any] = {
+            one.name: one.default for one in fields(reading) if one.name in other - own
+        }
+        yield path, replace(reading, **theirs)
 
 
 @gathers(reading=options.Reading)

@@ -320,13 +320,15 @@ def _number(field: str) -> float | None:
 
 def _line_by_line(lines: list[str], start: int, dialect: Dialect) -> FloatArray:
     """Points of the lines, or the error of the first one without exactly two finite numbers."""
-    points = []
+    points: list[float] = []
     for index, content in _content(lines, start):
         fields = dialect.fields(content)
         if len(fields) != 2:
+            wide = len(fields) > 2 and not points
+            remedy = '; say which two: --columns 2,3 (columns="2,3")' if wide else ""
             raise FormatError(
                 f"line {index + 1}: expected 2 columns (x and y), found {len(fields)}:"
-                f" {_shown(content)}"
+                f" {_shown(content)}{remedy}"
             )
         for field in fields:
             value = _number(field)

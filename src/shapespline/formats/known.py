@@ -11,6 +11,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
 
+def option_names(function: Callable[..., object]) -> tuple[str, ...]:
+    """Names of the keyword-only parameters of a function."""
+    return tuple(
+        name
+        for name, parameter in inspect.signature(function).parameters.items()
+        if parameter.kind is inspect.Parameter.KEYWORD_ONLY
+    )
+
+
 def known_options(
     name: str, kind: str, function: Callable[..., object], options: Mapping[str, object]
 ) -> dict[str, object]:
@@ -29,11 +38,7 @@ def known_options(
     InvalidInputError
         If the function does not take one of them.
     """
-    known = [
-        name
-        for name, parameter in inspect.signature(function).parameters.items()
-        if parameter.kind is inspect.Parameter.KEYWORD_ONLY
-    ]
+    known = option_names(function)
     given = {option: value for option, value in options.items() if value is not None}
     for option in given:
         if option not in known:

@@ -25,7 +25,7 @@ from shapespline.errors import (
     require,
 )
 from shapespline.formats.atomic import check_target, write_atomically
-from shapespline.formats.known import known_options
+from shapespline.formats.known import known_options, option_names
 from shapespline.formats.objects import read_object
 from shapespline.formats.sources import as_path
 from shapespline.geometry import Outlines, as_drawing, exact_drawing, in_unit
@@ -44,6 +44,7 @@ __all__ = [
     "Format",
     "check_output",
     "read",
+    "read_options",
     "readable",
     "writable",
     "write",
@@ -292,6 +293,17 @@ def _say_of_arcs(path: Path, drawing: Drawing) -> None:
             ArcsAsCurvesWarning,
             stacklevel=caller_level(),
         )
+
+
+def read_options(path: str | os.PathLike[str]) -> tuple[str, ...]:
+    """Options of the format that a file's ending tells, as :func:`read` takes them.
+
+    Examples
+    --------
+    >>> "columns" in read_options("a.csv"), read_options("a.svg")
+    (True, ())
+    """
+    return option_names(_function(Path(path), "read"))
 
 
 def readable() -> tuple[str, ...]:
