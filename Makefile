@@ -27,6 +27,7 @@ demo: $(READY)
 
 test: lint
 	@sh scripts/browser.sh $(BIN)/python
+	@sh scripts/typescript.sh $(BIN)/python
 	$(BIN)/python -m pytest -q -n logical --dist worksteal
 
 quick: $(READY)
