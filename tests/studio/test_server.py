@@ -110,7 +110,7 @@ def test_names_of_a_client_lead_nowhere():
         ("logo.exe", b"MZ", "no reader for this ending"),
         ("logo.png", b"no picture", "logo.png"),
         ("large.csv", bytes(MOST_BYTES + 1), "at most 64 MB, got 64"),
-        ("empty.csv", b"", "empty"),
+        ("empty.csv", b"", r"^cannot read empty\.csv: the file is empty$"),
     ],
 )
 def test_what_cannot_be_opened_is_said_in_the_programs_own_sentence(name, content, said):

@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import IO, TYPE_CHECKING, Any, Protocol
 
-from shapespline.errors import InvalidInputError, UnknownFormatError
+from shapespline.errors import InvalidInputError, ShapesplineError, UnknownFormatError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -84,7 +84,13 @@ def as_path(source: File, ending: str | None) -> Iterator[Path]:
     with TemporaryDirectory() as folder:
         path = Path(folder, Path(name).stem + suffix)
         path.write_bytes(content)
-        yield path
+        try:
+            yield path
+        except ShapesplineError as error:
+            # The caller knows the name, not the folder.
+            if folder not in str(error):
+                raise
+            raise type(error)(str(error).replace(f"{folder}{os.sep}", "")) from error
 
 
 def _told(content: bytes) -> str:

@@ -1,6 +1,7 @@
 // The graphs below the drawing: error, H, convergence, pieces; what is under the pointer is marked in both.
 
 import { colors } from "./colors.js";
+import { onceAFrame } from "./frames.js";
 import { Plot } from "./plot.js";
 import { byId, counted, element, short } from "./words.js";
 
@@ -21,7 +22,6 @@ export class Graph {
     this.mark = null;
     /** @type {{x: number, y: number} | null} the same on the drawing */
     this.place = null;
-    this.pending = false;
     const list = element("tabs");
     list.replaceChildren(...TABS.map(([name, title]) => {
       const tab = document.createElement("button");
@@ -71,14 +71,7 @@ export class Graph {
     this.draw();
   }
 
-  draw() {
-    if (this.pending) return;
-    this.pending = true;
-    requestAnimationFrame(() => {
-      this.pending = false;
-      this.paint();
-    });
-  }
+  draw = onceAFrame(() => this.paint());
 
   paint() {
     const { scene } = this.app;

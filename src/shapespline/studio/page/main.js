@@ -4,6 +4,7 @@ import { onScheme } from "./colors.js";
 import { Compare } from "./compare.js";
 import { Files } from "./files.js";
 import { Fitter } from "./fitter.js";
+import { onceAFrame } from "./frames.js";
 import { Graph } from "./graph.js";
 import { Keys } from "./keys.js";
 import { drawCrop, drawHover, drawMeasure, drawOwn } from "./marks.js";
@@ -37,7 +38,6 @@ export class App {
     this.panel = new Panel(this);
     this.keys = new Keys(this);
     this.settle = 0;
-    this.pending = false;
     this.ready = false;
     this.lastReading = "{}";
     this.scene.fits = () => this.fitter.fits;
@@ -221,17 +221,16 @@ export class App {
   /** Show what is there, once a frame. */
   refresh() {
     this.scene.draw();
-    if (this.pending) return;
-    this.pending = true;
-    requestAnimationFrame(() => {
-      this.pending = false;
-      this.panel.list();
-      this.panel.figures();
-      this.compare.show();
-      this.say();
-      this.graph.draw();
-    });
+    this.beside();
   }
+
+  beside = onceAFrame(() => {
+    this.panel.list();
+    this.panel.figures();
+    this.compare.show();
+    this.say();
+    this.graph.draw();
+  });
 
   say() {
     const line = element("sentence");

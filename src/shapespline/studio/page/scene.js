@@ -1,6 +1,7 @@
 // The scene: what is seen, and when it is drawn again; one frame draws all layers once.
 
 import { colors } from "./colors.js";
+import { onceAFrame } from "./frames.js";
 import { Grid } from "./grid.js";
 import { LAYERS } from "./layers.js";
 import { View } from "./view.js";
@@ -35,7 +36,6 @@ export class Scene {
     this.above = [];
     this.plain = false;
     this.frames = /** @type {number[]} */ ([]);
-    this.pending = false;
     this.box = [0, 0, 1, 1];
     /** @type {Grid | null} */
     this.pointGrid = null;
@@ -72,14 +72,7 @@ export class Scene {
   }
 
   /** Draw soon, once. */
-  draw() {
-    if (this.pending) return;
-    this.pending = true;
-    requestAnimationFrame(() => {
-      this.pending = false;
-      this.paint();
-    });
-  }
+  draw = onceAFrame(() => this.paint());
 
   paint() {
     const began = performance.now();
