@@ -1,27 +1,29 @@
-"""What came back of a drawing: straight edges, arcs, corners, distances."""
+"""What came back of a drawing: straight edges, arcs, corners, equal features, distances."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from benchmarks.drawn.truth import Arc, Cubic, Line, sampled
-from shapespline.geometry import turn_between
-from shapespline.values import BSplineCurve
+from benchmarks.drawn.found import STEP
+from benchmarks.drawn.repeats import spreads
+from benchmarks.drawn.truth import Arc, Cubic, Line, sampled, turn_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import shapespline as ss
-    from benchmarks.drawn.truth import Array, Outline
+    from benchmarks.drawn.found import Found
+    from benchmarks.drawn.repeats import Spread
+    from benchmarks.drawn.truth import Array, Element, Outline
 
-# Pixels: step of samples; straight and round within; nearest break of a corner, lost beyond.
-STEP, STRAIGHT, ROUND, NEAR, LOST = 0.05, 0.02, 0.15, 0.5, 1.5
-# A true turn, a break of the result, degrees; elements that are looked at, pixels, and their part.
-TURN, BREAK, SHORTEST, INNER = 20.0, 10.0, 3.0, 0.9
+# Pixels: straight and round within; nearest break of a corner, lost beyond; hooks lie farther from
+# any true corner or arc that is as tight.
+STRAIGHT, ROUND, NEAR, LOST, HOOK_AWAY, TIGHT = 0.02, 0.15, 0.5, 1.5, 2.0, 1.0
+# A true turn, degrees; elements that are looked at, pixels, and their part.
+TURN, SHORTEST, INNER = 20.0, 3.0, 0.9
 
 
 @dataclass
@@ -38,19 +40,32 @@ class Figures:
     radii: list[float] = field(default_factory=list)
     unround: list[float] = field(default_factory=list)
     corners: list[float] = field(default_factory=list)
+    chamfered: list[bool] = field(default_factory=list)
     false: list[int] = field(default_factory=list)
+    hooks: list[int] = field(default_factory=list)
+    equal: list[Spread] = field(default_factory=list)
     points: list[float] = field(default_factory=list)
     farthest: list[float] = field(default_factory=list)
     rms: list[float] = field(default_factory=list)
     exceeded: int = 0
     seconds: float = 0.0
 
-    def add(self, name: str, truth: Sequence[Outline], fits: Sequence[ss.Fit]) -> None:
+    @classmethod
+    def together(cls, parts: Sequence[Figures]) -> Figures:
+        """Of several drawings."""
+        whole = cls()
+        for one in fields(cls):
+            values = [getattr(part, one.name) for part in parts]
+            start = getattr(whole, one.name)
+            setattr(whole, one.name, sum(values, start))
+        return whole
+
+    def add(self, name: str, truth: Sequence[Outline], found: Found) -> None:
         """One drawing."""
         self.names.append(name)
-        self.outlines.append(len(fits) - len(truth))
-        self.exceeded += sum(not fit.kept for fit in fits)
-        curve, owner, breaks = _traced(fits)
+        self.outlines.append(len(found.outlines) - len(truth))
+        self.exceeded += found.exceeded
+        curve, owner = found.curve, found.owner
         tree = cKDTree(curve)
         for outline in truth:
             for element in outline:
@@ -67,9 +82,10 @@ class Figures:
                     self._line(element, curve[index], owner[index], length)
                 else:
                     self._arc(element, curve[index], length)
-        self._corners(truth, breaks)
+        self._corners(truth, found)
+        self.equal += spreads(truth, found, tree, SHORTEST)
         own = sum({Line: 1, Arc: 2, Cubic: 3}[type(e)] for outline in truth for e in outline)
-        self.points.append(sum(fit.n_stored_points for fit in fits) / own)
+        self.points.append(found.n_points / own)
         true = np.concatenate([sampled(outline, STEP) for outline in truth])
         there, back = cKDTree(true).query(curve)[0], tree.query(true)[0]
         self.farthest.append(max(float(there.max()), float(back.max())))
@@ -103,24 +119,32 @@ class Figures:
             self.unround.append(float(np.ptp(about)))
             self.radii.append(abs(own - arc.radius))
 
-    def _corners(self, truth: Sequence[Outline], breaks: Array) -> None:
-        true = np.array(
-            [
-                outline[k].end
-                for outline in truth
-                for k in range(len(outline))
-                if abs(_turn(outline[k], outline[(k + 1) % len(outline)])) > TURN
-            ]
-        ).reshape(-1, 2)
-        if len(true):
-            far = cKDTree(breaks).query(true)[0] if len(breaks) else np.full(len(true), np.inf)
-            self.corners += far.tolist()
-        away = (
-            cKDTree(true).query(breaks)[0]
-            if len(true) and len(breaks)
-            else np.ones(len(breaks)) * 9
-        )
-        self.false.append(int((away > LOST).sum()))
+    def _corners(self, truth: Sequence[Outline], found: Found) -> None:
+        breaks = found.breaks
+        true: list[Array] = []
+        long: list[bool] = []
+        tight: list[Array] = []
+        for outline in truth:
+            for k, before in enumerate(outline):
+                after = outline[(k + 1) % len(outline)]
+                if abs(turn_of(before, after)) > TURN:
+                    true.append(before.end)
+                    long.append(min(_length(before), _length(after)) >= SHORTEST)
+                if isinstance(before, Arc) and before.radius < TIGHT:
+                    tight.append(before.at(before.start + 0.5 * before.sweep))
+        self.corners += _nearest(breaks, true).tolist()
+        ends = [
+            one[[0, -1]]
+            for one, s in zip(found.sampled, found.lengths, strict=True)
+            if s < SHORTEST
+        ]
+        for place, counts in zip(true, long, strict=True):
+            if counts:
+                self.chamfered.append(
+                    any(np.hypot(*(one - place).T).max() <= SHORTEST for one in ends)
+                )
+        self.false.append(int((_nearest(true, breaks) > LOST).sum()))
+        self.hooks.append(int((_nearest([*true, *tight], found.hooks) > HOOK_AWAY).sum()))
 
     def row(self) -> dict[str, str]:
         """The figures of a table's row."""
@@ -148,54 +172,32 @@ class Figures:
             "radius": middle(self.radii),
             "corners": f"{100 * np.mean(corner <= NEAR):.0f}" if len(corner) else "",
             "lost": f"{100 * np.mean(corner > LOST):.0f}" if len(corner) else "",
+            "chamfered": f"{100 * np.mean(self.chamfered):.0f}" if self.chamfered else "",
             "false": f"{np.mean(self.false):.1f}",
+            "hooks": f"{np.mean(self.hooks):.1f}",
+            "spread": middle([one.offsets for one in self.equal]),
+            "same": f"{100 * np.mean([one.same_pieces for one in self.equal]):.0f}"
+            if self.equal
+            else "",
             "points": f"{np.exp(np.mean(np.log(self.points))):.2f}",
             "RMS": f"{np.mean(self.rms):.3f}",
             "H": f"{np.median(self.farthest):.2f}, {max(self.farthest):.2f}",
+            "outlines": f"{sum(max(-n, 0) for n in self.outlines)},"
+            f" {sum(max(n, 0) for n in self.outlines)}",
             "exceeded": str(self.exceeded),
             "seconds": f"{self.seconds:.1f}",
         }
 
 
-def _turn(before: Line | Arc | Cubic, after: Line | Arc | Cubic) -> float:
-    """Degrees between an element and the next."""
-    a, b = _direction(before, end=True), _direction(after, end=False)
-    return float(np.degrees(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b)))
+def _nearest(places: Sequence[Array] | Array, points: Sequence[Array] | Array) -> Array:
+    """How far each point is from the nearest place."""
+    if not len(points):
+        return np.empty(0)
+    if not len(places):
+        return np.full(len(points), np.inf)
+    return cKDTree(np.asarray(places)).query(np.asarray(points))[0]
 
 
-def _direction(element: Line | Arc | Cubic, *, end: bool) -> Array:
-    if isinstance(element, Line):
-        return element.end - element.begin
-    if isinstance(element, Arc):
-        angle = element.start + (element.sweep if end else 0.0)
-        return np.array([-np.sin(angle), np.cos(angle)]) * np.sign(element.sweep)
-    legs = np.diff(element.control, axis=0)
-    legs = legs[np.hypot(*legs.T) > 1e-9]
-    return legs[-1] if end else legs[0]
-
-
-def _traced(fits: Sequence[ss.Fit]) -> tuple[Array, Array, Array]:
-    """Dense points of all curves, the piece that each is of, and places of breaks."""
-    curve, owner = [], []
-    breaks: list[Array] = []
-    count = 0
-    for fit in fits:
-        for piece in fit.sections:
-            n = max(3, int(piece.polygon_length / STEP))
-            t = np.linspace(0, 1, n)
-            points = BSplineCurve(piece.knots, piece.control_points, piece.degree)(t)
-            if piece.kind == "line":  # to the bit where its ends agree
-                a, b = piece.control_points
-                points = np.where(a == b, a, points)
-            curve.append(points)
-            owner.append(np.full(n, count))
-            count += 1
-        if not fit.sections:
-            n = int(fit.length / STEP)
-            curve.append(fit.spline(np.linspace(0, 1, n)))
-            owner.append(np.full(n, count))
-            count += 1
-        for before, after in zip(fit.sections[-1:] + fit.sections[:-1], fit.sections, strict=True):
-            if abs(np.degrees(turn_between(before, after))) > BREAK:
-                breaks.append(after.control_points[0])
-    return np.concatenate(curve), np.concatenate(owner), np.array(breaks).reshape(-1, 2)
+def _length(element: Element) -> float:
+    points = element.points(STEP)
+    return float(np.hypot(*np.diff(np.vstack([points, element.end]), axis=0).T).sum())

@@ -1,13 +1,11 @@
-"""The drawings: plates, gears, slots, letters and leaves, in units of about one.
+"""What drawings are made of: boxes, gears, slots, stars, leaves, in units of about one.
 
-The first of each pair may be looked at while constants are chosen; the second is kept aside, for
-judging. Outer outlines run counter-clockwise, holes clockwise.
+Outer outlines run counter-clockwise, holes clockwise.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -15,18 +13,9 @@ from scipy.interpolate import CubicSpline
 from benchmarks.drawn.truth import Arc, Cubic, Line, Outline
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from benchmarks.drawn.truth import Array, Element
-
-
-class Drawing(NamedTuple):
-    """Outlines, the angle (degrees) that they are turned by, and what they are."""
-
-    outlines: tuple[Outline, ...]
-    turn: float
-    kind: str  # "geometric", "letter" or "organic"
-    aside: bool
 
 
 def rounded(corners: Sequence[tuple[float, float]], radii: float | Sequence[float]) -> Outline:
@@ -148,124 +137,51 @@ def leaf(bend: float, width: float) -> Outline:
     return smooth(np.column_stack([x - 0.5, y]), corner=True)
 
 
-def letter(character: str, bold: bool = False) -> tuple[Outline, ...]:
-    """A glyph of DejaVu Sans, which comes with matplotlib."""
-    import matplotlib
-    from fontTools.pens.recordingPen import DecomposingRecordingPen
-    from fontTools.ttLib import TTFont
-
-    name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
-    font = TTFont(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / name)
-    glyphs, unit = font.getGlyphSet(), font["head"].unitsPerEm
-    pen = DecomposingRecordingPen(glyphs)
-    glyphs[font.getBestCmap()[ord(character)]].draw(pen)
-    outlines: list[Outline] = []
-    elements: list[Element] = []
-    first = here = np.zeros(2)
-    for command, arguments in pen.value:
-        given = [np.array(a, dtype=float) / unit for a in arguments if a is not None]
-        if command == "moveTo":
-            elements, first, here = [], given[0], given[0]
-        elif command == "lineTo":
-            elements.append(Line(here, given[0]))
-            here = given[0]
-        elif command == "qCurveTo":
-            inner = given[:-1]
-            for k, q in enumerate(inner):
-                to = given[-1] if k == len(inner) - 1 else 0.5 * (q + inner[k + 1])
-                elements.append(Cubic(np.stack([here, (here + 2 * q) / 3, (to + 2 * q) / 3, to])))
-                here = to
-        elif command == "closePath":
-            if np.hypot(*(here - first)) > 1e-9:
-                elements.append(Line(here, first))
-            outlines.append(tuple(elements))
-    return tuple(outlines)
+def slot(x: float, y: float, length: float, width: float) -> Outline:
+    """A level slot with round ends, clockwise."""
+    r, half = width / 2, 0.5 * (length - width)
+    a, b = np.array([x - half, y]), np.array([x + half, y])
+    up = np.array([0.0, r])
+    return (
+        Line(a + up, b + up),
+        Arc(b, r, np.pi / 2, -np.pi),
+        Line(b - up, a - up),
+        Arc(a, r, -np.pi / 2, -np.pi),
+    )
 
 
-def _pairs() -> dict[str, tuple[Callable[[], tuple[Outline, ...]], float, str]]:
-    def plate(radius: float, size: float, middle: float) -> tuple[Outline, ...]:
-        at = [(-0.35, -0.25), (0.35, -0.25), (0.35, 0.25), (-0.35, 0.25)]
-        return (box(1.0, 0.8, radius), *(hole(x, y, size) for x, y in at), hole(0, 0, middle))
-
-    ell = [(-0.4, -0.5), (0.4, -0.5), (0.4, -0.28), (-0.15, -0.28), (-0.15, 0.5), (-0.4, 0.5)]
-    tee = [
-        (-0.5, 0.2),
-        (-0.12, 0.2),
-        (-0.12, -0.5),
-        (0.12, -0.5),
-        (0.12, 0.2),
-        (0.5, 0.2),
-        (0.5, 0.45),
-        (-0.5, 0.45),
+def grid(columns: int, rows: int, dx: float, dy: float, radius: float) -> list[Outline]:
+    """Equal holes at equal steps about the origin."""
+    return [
+        hole((i - 0.5 * (columns - 1)) * dx, (j - 0.5 * (rows - 1)) * dy, radius)
+        for j in range(rows)
+        for i in range(columns)
     ]
-    arrow = [
-        (-0.5, -0.1),
-        (0.1, -0.1),
-        (0.1, -0.28),
-        (0.5, 0.0),
-        (0.1, 0.28),
-        (0.1, 0.1),
-        (-0.5, 0.1),
-    ]
-    house = [(-0.4, -0.4), (0.4, -0.4), (0.4, 0.15), (0.0, 0.5), (-0.4, 0.15)]
-    return {
-        "box": (lambda: (box(1.0, 0.6),), 8.1, "geometric"),
-        "box level": (lambda: (box(0.9, 0.7),), 0.0, "geometric"),
-        "box rounded": (lambda: (box(1.0, 0.6, 0.15),), 17.3, "geometric"),
-        "box little rounded": (lambda: (box(0.9, 0.6, 0.03),), 0.0, "geometric"),
-        "slot": (lambda: (box(1.26, 0.26, 0.1299999),), 30.7, "geometric"),
-        "slot level": (lambda: (box(1.2, 0.4, 0.1999999),), 0.0, "geometric"),
-        "gear 18": (lambda: (gear(18, 0.40, 0.5), hole(0, 0, 0.15)), 3.0, "geometric"),
-        "gear 12": (lambda: (gear(12, 0.37, 0.5, 0.45), hole(0, 0, 0.2)), 11.0, "geometric"),
-        "gear 24": (lambda: (gear(24, 0.42, 0.5), hole(0, 0, 0.1)), 0.0, "geometric"),
-        "keyhole": (lambda: (keyhole(0.3, 0.09, 0.8),), -63.0, "geometric"),
-        "keyhole level": (lambda: (keyhole(0.3, 0.12, 0.9),), 90.0, "geometric"),
-        "plate": (lambda: plate(0.08, 0.06, 0.16), 11.0, "geometric"),
-        "plate level": (lambda: plate(0.12, 0.07, 0.13), 0.0, "geometric"),
-        "bracket": (lambda: (rounded(ell, [0, 0.06, 0.06, 0.12, 0.06, 0.06]),), 0.0, "geometric"),
-        "tee": (
-            lambda: (rounded(tee, [0.05, 0.1, 0, 0, 0.1, 0.05, 0.05, 0.05]),),
-            5.0,
-            "geometric",
-        ),
-        "star 5": (lambda: (star(5, 0.22),), 0.0, "geometric"),
-        "star 7": (lambda: (star(7, 0.3),), 12.0, "geometric"),
-        "arrow": (lambda: (polygon(*arrow),), 0.0, "geometric"),
-        "house": (
-            lambda: (
-                polygon(*house),
-                rounded([(-0.1, -0.3), (-0.1, 0.05), (0.1, 0.05), (0.1, -0.3)], 0),
-            ),
-            0.0,
-            "geometric",
-        ),
-        "ring": (lambda: (disc(0, 0, 0.5), hole(0, 0, 0.32)), 0.0, "geometric"),
-        "washer": (lambda: (disc(0, 0, 0.5), hole(0.05, 0, 0.2)), 20.0, "geometric"),
-        "hexagon": (lambda: (star(3, 0.5), hole(0, 0, 0.28)), 4.0, "geometric"),
-        "pebble": (
-            lambda: (wavy(0.35, (2, 0.08, 0.4), (3, 0.05, -1.57), (5, 0.025, 1.0)),),
-            0.0,
-            "organic",
-        ),
-        "blob": (
-            lambda: (wavy(0.36, (2, 0.06, 1.4), (4, 0.04, 0.5), (7, 0.012, 1.0)),),
-            30.0,
-            "organic",
-        ),
-        "lobed": (
-            lambda: (wavy(0.36, (5, 0.09, 0.3), (3, 0.03, -1.57), (11, 0.01, -1.57)),),
-            0.0,
-            "organic",
-        ),
-        "flower": (lambda: (wavy(0.36, (6, 0.08, 0.2), (2, 0.02, 0.3)),), 10.0, "organic"),
-        "leaf": (lambda: (leaf(0.06, 0.22),), 20.0, "organic"),
-        "leaf wide": (lambda: (leaf(0.03, 0.3),), -35.0, "organic"),
-    } | {f"letter {c}": ((lambda c=c: letter(c)), 0.0, "letter") for c in "ERSgBaKt"}
 
 
-def drawings() -> dict[str, Drawing]:
-    """All drawings by name; every other one is kept aside."""
-    return {
-        name: Drawing(make(), turn, kind, bool(k % 2))
-        for k, (name, (make, turn, kind)) in enumerate(_pairs().items())
-    }
+def ring_of(count: int, pitch: float, radius: float) -> list[Outline]:
+    """Equal holes at equal steps on a circle about the origin."""
+    angles = (2 * np.pi * np.arange(count) / count).tolist()
+    return [hole(pitch * float(np.cos(a)), pitch * float(np.sin(a)), radius) for a in angles]
+
+
+def cross(arm: float, half: float, radius: float = 0.0) -> Outline:
+    """Four equal arms, all corners rounded alike."""
+    quarter = [(arm, -half), (arm, half), (half, half)]
+    corners = []
+    for _ in range(4):
+        corners += quarter
+        quarter = [(-y, x) for x, y in quarter]
+    return rounded(corners, radius)
+
+
+def comb(teeth: int, width: float, depth: float) -> Outline:
+    """Equal teeth and gaps, upwards from a bar."""
+    right = (2 * teeth - 1) * width / 2
+    corners = [(-right, -depth / 2), (right, -depth / 2)]
+    for k in range(teeth):
+        x = right - 2 * k * width
+        corners += [(x, depth), (x - width, depth)]
+        if k < teeth - 1:
+            corners += [(x - width, 0.0), (x - 2 * width, 0.0)]
+    return polygon(*corners)

@@ -121,42 +121,18 @@ def placed(outlines: Sequence[Outline], size: int, turn: float, seed: int) -> li
     return [tuple(e.moved(scale, 0.0, shift) for e in outline) for outline in turned]
 
 
-def coverage(outlines: Sequence[Outline], size: int) -> Array:
-    """Part of each pixel that is inside (even-odd), exact for chords of a twentieth of a pixel.
-
-    Signed areas left of each edge are added up, as in Levien's font-rs; row 0 is at the top.
-    """
-    areas = np.zeros((size, size + 2))
-    for outline in outlines:
-        for element in outline:
-            step = 1e9 if isinstance(element, Line) else 0.25
-            points = np.concatenate([element.points(step), element.end[None]])
-            for (ax, ay), (bx, by) in zip(points[:-1].tolist(), points[1:].tolist(), strict=True):
-                _add_edge(areas, ax, size - ay, bx, size - by)
-    return np.clip(np.abs(np.cumsum(areas, axis=1)[:, :size]), 0.0, 1.0)
+def turn_of(before: Element, after: Element) -> float:
+    """Degrees between an element and the next."""
+    a, b = _direction(before, end=True), _direction(after, end=False)
+    return float(np.degrees(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b)))
 
 
-def _add_edge(areas: Array, ax: float, ay: float, bx: float, by: float) -> None:
-    """The area right of an edge within its rows, as differences along them."""
-    if ay == by:
-        return
-    sign = 1.0
-    if ay > by:
-        ax, ay, bx, by, sign = bx, by, ax, ay, -1.0
-    slope = (bx - ax) / (by - ay)
-    for row in range(int(np.floor(ay)), int(np.ceil(by))):
-        top, bottom = max(ay, row), min(by, row + 1.0)
-        left, right = sorted((ax + (top - ay) * slope, ax + (bottom - ay) * slope))
-        height = sign * (bottom - top)
-        for column in range(int(np.floor(left)), int(np.floor(right)) + 1):
-            a, b = max(left, column), min(right, column + 1.0)
-            share = 1.0 if right == left else (b - a) / (right - left)
-            if share > 0.0:
-                part = 1.0 - (0.5 * (a + b) - column)
-                areas[row, column] += height * share * part
-                areas[row, column + 1] += height * share * (1.0 - part)
-
-
-def picture(outlines: Sequence[Outline], size: int) -> NDArray[np.uint8]:
-    """Black on white, 8 bits."""
-    return np.rint(255 * (1 - coverage(outlines, size))).astype(np.uint8)
+def _direction(element: Element, *, end: bool) -> Array:
+    if isinstance(element, Line):
+        return element.end - element.begin
+    if isinstance(element, Arc):
+        angle = element.start + (element.sweep if end else 0.0)
+        return np.array([-np.sin(angle), np.cos(angle)]) * np.sign(element.sweep)
+    legs = np.diff(element.control, axis=0)
+    legs = legs[np.hypot(*legs.T) > 1e-9]
+    return legs[-1] if end else legs[0]

@@ -1,0 +1,148 @@
+"""Pictures of drawings: exact coverage, Cairo, a browser, JPEG. Black on white, 8 bits."""
+
+from __future__ import annotations
+
+import atexit
+import io
+from contextlib import ExitStack
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PIL import Image
+
+from benchmarks.drawn.truth import Cubic, Line
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    from benchmarks.drawn.truth import Array, Outline
+
+    Picture = NDArray[np.uint8]
+
+
+class MissingError(Exception):
+    """What a renderer or a tracer needs is not on this machine; the sentence says what."""
+
+
+def exact(outlines: Sequence[Outline], size: int) -> Picture:
+    """By the coverage of each pixel."""
+    return np.rint(255 * (1 - coverage(outlines, size))).astype(np.uint8)
+
+
+def jpeg(picture: Picture, quality: int = 90) -> Picture:
+    """Written as JPEG and read back."""
+    stream = io.BytesIO()
+    Image.fromarray(picture).save(stream, "JPEG", quality=quality)
+    return np.asarray(Image.open(stream))
+
+
+def by_cairo(outlines: Sequence[Outline], size: int) -> Picture:
+    """By CairoSVG."""
+    try:
+        import cairosvg
+    except (ImportError, OSError) as error:
+        raise MissingError("Cairo was left out: CairoSVG is not installed") from error
+    return _grey(cairosvg.svg2png(bytestring=svg(outlines, size).encode()))
+
+
+def by_browser(outlines: Sequence[Outline], size: int) -> Picture:
+    """By a browser that Playwright starts."""
+    page = _page()
+    page.set_viewport_size({"width": size, "height": size})
+    page.set_content(f"<body style='margin:0'>{svg(outlines, size)}</body>")
+    return _grey(page.screenshot())
+
+
+@cache
+def _page() -> Any:
+    """One page for all pictures; the process takes it along when it ends."""
+    try:
+        from benchmarks.studio import browser_path, browsing
+    except ImportError as error:
+        raise MissingError("Chromium was left out: Playwright is not installed") from error
+    if browser_path() is None:
+        raise MissingError("Chromium was left out: no browser is installed")
+    stack = ExitStack()
+    atexit.register(stack.close)
+    return stack.enter_context(browsing()).new_page()
+
+
+def _grey(png: bytes) -> Picture:
+    image = Image.open(io.BytesIO(png)).convert("RGBA")
+    white = Image.new("RGBA", image.size, "white")
+    return np.asarray(Image.alpha_composite(white, image).convert("L"))
+
+
+def svg(outlines: Sequence[Outline], size: int) -> str:
+    """A picture's source, y down: arcs as A, cubics as C."""
+    path = "".join(_path(outline, size) for outline in outlines)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{size}" height="{size}"'
+        f' style="display:block"><path fill-rule="evenodd" d="{path}"/></svg>'
+    )
+
+
+def _path(outline: Outline, size: int) -> str:
+    def at(point: Array) -> str:
+        return f"{point[0]:.6f},{size - point[1]:.6f}"
+
+    said = [f"M{at(outline[0].begin)}"]
+    for element in outline:
+        if isinstance(element, Line):
+            said.append(f"L{at(element.end)}")
+        elif isinstance(element, Cubic):
+            said.append("C" + " ".join(at(point) for point in element.control[1:]))
+        else:
+            parts = 1 + int(abs(element.sweep) // 3)
+            way, r = int(element.sweep < 0), f"{element.radius:.6f}"
+            for k in range(1, parts + 1):
+                end = element.at(element.start + element.sweep * k / parts)
+                said.append(f"A{r},{r} 0 0 {way} {at(end)}")
+    return "".join(said) + "Z"
+
+
+def coverage(outlines: Sequence[Outline], size: int) -> Array:
+    """Part of each pixel that is inside (even-odd), exact for chords of a twentieth of a pixel.
+
+    Signed areas left of each edge are added up, as in Levien's font-rs; row 0 is at the top.
+    """
+    areas = np.zeros((size, size + 2))
+    for outline in outlines:
+        for element in outline:
+            step = 1e9 if isinstance(element, Line) else 0.25
+            points = np.concatenate([element.points(step), element.end[None]])
+            for (ax, ay), (bx, by) in zip(points[:-1].tolist(), points[1:].tolist(), strict=True):
+                _add_edge(areas, ax, size - ay, bx, size - by)
+    return np.clip(np.abs(np.cumsum(areas, axis=1)[:, :size]), 0.0, 1.0)
+
+
+def _add_edge(areas: Array, ax: float, ay: float, bx: float, by: float) -> None:
+    """The area right of an edge within its rows, as differences along them."""
+    if ay == by:
+        return
+    sign = 1.0
+    if ay > by:
+        ax, ay, bx, by, sign = bx, by, ax, ay, -1.0
+    slope = (bx - ax) / (by - ay)
+    for row in range(int(np.floor(ay)), int(np.ceil(by))):
+        top, bottom = max(ay, row), min(by, row + 1.0)
+        left, right = sorted((ax + (top - ay) * slope, ax + (bottom - ay) * slope))
+        height = sign * (bottom - top)
+        for column in range(int(np.floor(left)), int(np.floor(right)) + 1):
+            a, b = max(left, column), min(right, column + 1.0)
+            share = 1.0 if right == left else (b - a) / (right - left)
+            if share > 0.0:
+                part = 1.0 - (0.5 * (a + b) - column)
+                areas[row, column] += height * share * part
+                areas[row, column + 1] += height * share * (1.0 - part)
+
+
+RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
+    "exact coverage": exact,
+    "Cairo": by_cairo,
+    "Chromium": by_browser,
+    "JPEG 90": lambda outlines, size: jpeg(exact(outlines, size)),
+}

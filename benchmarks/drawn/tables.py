@@ -1,0 +1,176 @@
+"""The tables: sizes, renderers, tolerances, measured points, other tracers."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import shapespline as ss
+from benchmarks.drawn.catalogue import drawings, names_of
+from benchmarks.drawn.measure import Figures
+from benchmarks.drawn.renderers import RENDERERS, MissingError
+from benchmarks.drawn.tracers import CHARACTERS, PEERS, ours
+from benchmarks.drawn.truth import placed, sampled
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from benchmarks.drawn.renderers import Picture
+    from benchmarks.drawn.truth import Outline
+
+SIZE, SIZES, TOLERANCES = 256, (128, 512), (None, 0.35)
+EXACT = "exact coverage"
+HEADS = {
+    "straight": "straight %",
+    "one piece": "one piece %",
+    "worst bow": "worst bow",
+    "direction": "direction, deg",
+    "level": "level exactly %",
+    "arcs": "arcs %",
+    "unround": "circles: unround",
+    "corners": "corners %",
+    "lost": "lost %",
+    "chamfered": "chamfered %",
+    "false": "false",
+    "hooks": "hooks",
+    "spread": "equal: spread",
+    "same": "equal: same pieces %",
+    "points": "points",
+    "RMS": "RMS",
+    "H": "H median, worst",
+    "outlines": "outlines lost, false",
+    "exceeded": "exceeded",
+    "seconds": "s",
+}
+# What plates and icons are to reach at 256 pixels, by the table's columns.
+AIMS = {
+    None: "95 90 . 0.02 90 90 0.02 92 3 2 0.5 0 0.08 90 1.05 0.04",
+    0.35: "93 90 . 0.02 90 85 0.02 90 3 2 0.5 0 0.08 90 1.05 0.05",
+}
+
+
+@cache
+def rendered(name: str, size: int, renderer: str = EXACT) -> tuple[list[Outline], Picture]:
+    """Outlines in pixels, and their picture."""
+    drawing = drawings()[name]
+    outlines = placed(drawing.outlines, size, drawing.turn, seed=1)
+    return outlines, RENDERERS[renderer](outlines, size)
+
+
+@cache
+def measured(
+    name: str, size: int, tolerance: float | None, tracer: str, renderer: str = EXACT
+) -> Figures:
+    """What a tracer makes of one drawing."""
+    outlines, image = rendered(name, size, renderer)
+    found = Figures()
+    if tracer in PEERS:
+        traced = PEERS[tracer](image)
+    else:
+        traced, found.seconds = ours(image, tolerance, tracer)
+    found.add(name, outlines, traced)
+    return found
+
+
+class Tables:
+    """Markdown, table by table, and what was left out."""
+
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+        self.left_out: dict[str, None] = {}
+
+    def add(
+        self,
+        title: str,
+        rows: Sequence[tuple[str, list[str], float | None, str, str]],
+        size: int,
+        aims: str = "",
+    ) -> None:
+        """A table; its rows are a label, drawings, tolerance, tracer, renderer."""
+        lines = [f"**{title}**", "", "| | " + " | ".join(HEADS.values()) + " |"]
+        lines.append("|---" * (len(HEADS) + 1) + "|")
+        if aims:
+            shown = ["" if one == "." else f"*{one}*" for one in aims.split()]
+            shown += [""] * (len(HEADS) - len(shown))
+            lines.append("| *aim* | " + " | ".join(shown) + " |")
+        for label, names, tolerance, tracer, renderer in rows:
+            try:
+                each = [measured(name, size, tolerance, tracer, renderer) for name in names]
+            except MissingError as error:
+                self.left_out[f"{error}."] = None
+                continue
+            row = Figures.together(each).row()
+            lines.append(f"| {label} | " + " | ".join(row[key] for key in HEADS) + " |")
+        self.texts.append("\n".join(lines) + "\n")
+
+
+def pictures_tables() -> Tables:
+    """At 256 pixels with all tracers and renderers; other sizes; words by themselves."""
+    tables = Tables()
+    both = ("plate", "icon")
+    for tolerance in TOLERANCES:
+        said = _said(tolerance)
+        every = (*CHARACTERS, *(PEERS if tolerance is None else ()))
+        rows = [(f"all: {one}", names_of(*both), tolerance, one, EXACT) for one in every]
+        rows += [
+            (f"{label}: drawn", names, tolerance, "drawn", EXACT)
+            for label, names in (
+                ("seen", names_of(*both, aside=False)),
+                ("kept aside", names_of(*both, aside=True)),
+                ("plates", names_of("plate")),
+                ("icons", names_of("icon")),
+            )
+        ]
+        tables.add(f"Plates and icons, {SIZE} pixels, {said}", rows, SIZE, AIMS[tolerance])
+        for title, kind in (
+            ("Words", "word"),
+            ("Single letters", "letter"),
+            ("Organic outlines", "organic"),
+        ):
+            few = every if kind == "word" else CHARACTERS
+            rows = [(one, names_of(kind), tolerance, one, EXACT) for one in few]
+            tables.add(f"{title}, {SIZE} pixels, {said}", rows, SIZE)
+    rows = [(one, names_of(*both), None, "drawn", one) for one in RENDERERS]
+    tables.add(f"Plates and icons, {SIZE} pixels, drawn, renderers", rows, SIZE)
+    for size in SIZES:
+        rows = [(_said(one), names_of(*both), one, "drawn", EXACT) for one in TOLERANCES]
+        tables.add(f"Plates and icons, {size} pixels, drawn", rows, size)
+    return tables
+
+
+def _said(tolerance: float | None) -> str:
+    return "no tolerance" if tolerance is None else f"within {tolerance} pixels"
+
+
+def sampled_table() -> str:
+    """Points with noise on plates, structure and distance to the truth."""
+    from scipy.spatial import cKDTree
+
+    lines = ["| | noise % | n | pieces of the drawing | fewest: pieces, H | drawn: pieces, H |"]
+    lines.append("|---|---|---|---|---|---|")
+    random = np.random.default_rng(5)
+    for name in ("slot", "box rounded", "bracket", "star 5", "keyhole", "pebble"):
+        outline = rendered(name, SIZE)[0][0]
+        dense = sampled(outline, 0.02)
+        size = float(np.hypot(*np.ptp(dense, axis=0)))
+        for noise in (0.02, 0.1, 0.5):
+            for n in (200, 1000):
+                contour = ss.Contour(dense, closed=True).resampled(n)
+                points = contour.points + random.normal(0, 0.01 * noise * size, (n, 2))
+                said = []
+                for character in CHARACTERS:
+                    fit = ss.fit_curve(points, closed=True, character=character)
+                    curve = fit.spline(np.linspace(0, 1, 20_001))
+                    far = max(
+                        cKDTree(dense).query(curve)[0].max(), cKDTree(curve).query(dense)[0].max()
+                    )
+                    kinds = [piece.kind for piece in fit.pieces]
+                    counts = (
+                        f"{kinds.count('line')} L {kinds.count('arc')} A"
+                        f" {len(kinds) - kinds.count('line') - kinds.count('arc')} C"
+                    )
+                    said.append(f"{counts}, {far:.2f}")
+                lines.append(f"| {name} | {noise} | {n} | {len(outline)} | {said[0]} | {said[1]} |")
+    return "\n".join(lines) + "\n"
