@@ -10,12 +10,14 @@ WORDS = (
     (r"(--[\w-]+(?: \S+)?) \(\w+=[^)]*\)", r"\1"),
     (r"end_tangents, through and symmetric act\b", "--symmetric acts"),
     (r"end_tangents and through act\b", "directions and points act"),
+    (r"\bend_tangents, through, symmetric and\b", "--symmetric and"),
+    (r"\bweights, sigma and loss out\b", "--sigma and --loss out"),
     (r"\bn_control_points\b(?:=(\d+))?", r"--control-points \1"),
     (
         r"; go on from here with optimize\(contour, fit\)",
         "; take more points or a larger tolerance",
     ),
-    (r"\b(corners|form|ends|effort|unit)='([^']*)'", r"--\1 \2"),
+    (r"\b(corners|form|ends|effort|unit|character)='([^']*)'", r"--\1 \2"),
     (r"\bwith weights or form=\S+", "with --form spline"),
     (
         r"\b(time_limit|arc_tolerance|safe_height|min_area|y_down|shared_boundaries)\b(?:=([^\s,;)]+))?",
@@ -40,6 +42,8 @@ def own_words(sentence: str) -> str:
     'left out as noise: --min-area 0 keeps them'
     >>> own_words("corners and effort do not act with time_limit=3")
     'corners and effort do not act with --time-limit 3'
+    >>> own_words("beside character='drawn' leave n_control_points, weights, sigma and loss out")
+    'beside --character drawn leave --control-points, --sigma and --loss out'
     """
     for pattern, said in PATTERNS:
         sentence = pattern.sub(functools.partial(_filled, said), sentence)

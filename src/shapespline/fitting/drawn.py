@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from shapespline.monitor import Monitor
     from shapespline.values import Regularity
 
-# Of more points the structure is not looked for; all those of a picture count, and time rises with
-# their square.
-MOST_POINTS, MOST_OF_PICTURE = 20_000, 6_000
 # Without a tolerance a drawn shape explains points no farther than so many bands, those of a
 # picture than so many times its accuracy; a corner that it blunts lies beyond them (DRA-06).
 FARTHEST, FARTHEST_OF_PICTURE, FARTHEST_CORNER = 1.5, 25.0, 75.0
@@ -47,10 +44,8 @@ class DrawnPieces:
         normalized = problem.ordered
         scale = normalized.scale
         accuracy = None if contour.level_line is None else contour.accuracy
-        if len(contour) > (MOST_OF_PICTURE if accuracy else MOST_POINTS):
-            return
         found = as_drawn(
-            normalized.contour,
+            problem.seen,
             None if accuracy is None else accuracy * scale,
             style.regularities,
             np.inf if self.shown is not None else within * scale,

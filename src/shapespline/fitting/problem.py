@@ -75,6 +75,12 @@ class Problem:
         return self.pieces.normalized
 
     @property
+    def seen(self) -> Contour:
+        """The points as they came, in canonical unit, where vertices stand for them."""
+        dense = None if self.request.tolerance is None else self.pieces.dense
+        return self.ordered.contour if dense is None else dense
+
+    @property
     def has_corners(self) -> bool:
         """Whether the data have corners that stay, as far as a tolerance tells them."""
         if self.request.tolerance is None:
@@ -84,9 +90,7 @@ class Problem:
     @property
     def has_straight_runs(self) -> bool:
         """Whether some of the data, as they came, are straight, or too noisy to tell."""
-        seen = self.pieces.dense
-        seen = self.normalized.contour if seen is None else seen
-        return has_straight_runs(seen, self.pieces.tolerance)
+        return has_straight_runs(self.seen, self.pieces.tolerance)
 
     @property
     def looks_smooth(self) -> bool:

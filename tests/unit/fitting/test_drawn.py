@@ -43,6 +43,36 @@ def test_the_promise_holds_and_edges_are_level_to_the_bit():
     assert plain.regularities == ()
 
 
+def slot(n):
+    """About n points of a slot 56 by 16."""
+    t = np.arange(n // 4) / (n // 4)
+    half = np.pi * (t - 0.5)
+    right = np.column_stack([20 + 8 * np.cos(half), 8 * np.sin(half)])
+    edge = np.column_stack([20 - 40 * t, 0 * t + 8])
+    return np.concatenate([-edge, right, edge, -right])
+
+
+def test_many_points_and_noisy_ones_tell_the_same():
+    for n, noise in ((24_000, 0.0), (1_000, 0.05)):
+        points = slot(n) + np.random.default_rng(1).normal(0, 1, (n, 2)) * noise
+        fit = ss.fit_curve(points, closed=True, tolerance=0.3, character="drawn")
+        assert sorted(piece.kind for piece in fit.pieces) == ["arc", "arc", "line", "line"]
+        # A radius is known to sigma * sqrt(8 / n) about, which is a hundredth at most.
+        assert all(abs(piece.arc.radius - 8) < 0.03 for piece in fit.pieces if piece.arc)
+        assert fit.kept
+
+
+def test_an_open_row_on_a_circle_is_one_arc():
+    for sweep in (1.0, 2 * np.pi):
+        angle = np.linspace(0, sweep, 300)
+        points = 10 * np.column_stack([np.cos(angle), np.sin(angle)])
+        (arc,) = ss.fit_curve(points, closed=False, character="drawn").pieces
+        assert arc.kind == "arc"
+        assert abs(arc.arc.sweep - sweep) < 1e-6
+    parabola = np.column_stack([angle, angle**2])
+    assert ss.fit_curve(parabola, closed=False, character="drawn").method != "drawn"
+
+
 def test_free_form_parts_run_smoothly_into_lines():
     t = np.linspace(0, 1, 120)
     wave = np.column_stack([100 * t, 12 * t**2 * (1 - t) ** 2 * 16 * (1 + np.sin(7 * t))])

@@ -119,6 +119,17 @@ def sweep_of(model: Model, k: int, begin: FloatArray, end: FloatArray) -> tuple[
     return first, (last - first) % full if model.ways[k] > 0 else -((first - last) % full)
 
 
+def length_along(model: Model, k: int) -> float:
+    """Length of the data of a segment along its element; noise across it does not count."""
+    i, j, kind = model.row.found[k]
+    o = model.at[k]
+    if kind == LINE:
+        return float(unit_of(float(model.x[o])) @ (model.row.points[j] - model.row.points[i]))
+    out = model.row.points[i : j + 1] - model.x[o : o + 2]
+    turns = np.unwrap(np.arctan2(out[:, 1], out[:, 0]))
+    return abs(float(turns[-1] - turns[0])) * float(model.x[o + 2])
+
+
 def data_length(model: Model, k: int) -> float:
     """Length of the data of a segment."""
     s, (i, j, _) = model.row.stations, model.row.found[k]

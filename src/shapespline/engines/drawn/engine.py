@@ -80,8 +80,9 @@ def as_drawn(
         if whole is not None:
             return Drawn((whole,), ())
     row = supported(segmented(seen), contour.closed)
+    model = None
     for _ in range(len(row.found)):
-        model = Model.of(seen, row)
+        model = Model.of(seen, row, model)
         if not is_enough(model):
             return None
         bad = misfitting(model, tolerance)  # each alone first, which is soon done
@@ -93,7 +94,7 @@ def as_drawn(
                 return None
         if not bad:
             if set(regularities) != set(NAMES):
-                model = Model.of(seen, row)
+                model = Model.of(seen, row, model)
                 found = Search(model, regularities).run()
             return _drawn(model, found, tolerance)
         row = supported(_without(row, bad), contour.closed)

@@ -6,7 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn.ends import data_length, length_between, nodes_of, off_by
+from shapespline.engines.drawn.ends import (
+    data_length,
+    length_along,
+    length_between,
+    nodes_of,
+    off_by,
+)
 from shapespline.engines.drawn.joints import turn_at
 
 if TYPE_CHECKING:
@@ -47,15 +53,17 @@ def misfitting(model: Model, tolerance: float) -> list[int]:
         m = (k + 1) % n
         if k not in model.at or m not in model.at:
             continue
-        away = float(np.hypot(*(node - model.row.points[model.row.found[k].end])))
+        beside = [model.row.points[i : j + 1] for i, j, _ in (model.row.found[s] for s in (k, m))]
+        away = float(np.hypot(*(np.concatenate(beside) - node).T).min())
         # Blunted corners lie farther from their points the sharper they are.
         far = away / reach * float(np.cos(0.5 * turn_at(model, k, m, node))) ** 0.5
         if far > 1.0:
             bad.append((far, min(k, m, key=lambda one: data_length(model, one))))
     for k in model.at:
         between = length_between(model, k, nodes[k - 1], nodes[k])
-        far = abs(between - data_length(model, k)) / (3 * reach)
-        if between < LEAST_LENGTH * data_length(model, k):
+        along = length_along(model, k)
+        far = abs(between - along) / (3 * reach)
+        if between < LEAST_LENGTH * along:
             far += 1.0
         if far > 1.0:
             bad.append((far, k))
@@ -75,6 +83,8 @@ def repeated(model: Model, found: list[Regularity]) -> float:
     draw is level, parallel, equal or symmetric.
     """
     n, said = len(model.at), 0.0
+    if len(model.row.found) == 1:  # one arc from end to end, as a whole circle
+        return 1.0
     for one in found:
         if one.name in ("rotation", "mirror"):
             said += n * (1.0 - 1.0 / one.order)

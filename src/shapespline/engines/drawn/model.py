@@ -68,23 +68,24 @@ class Model:
     at: dict[int, int] = field(default_factory=dict)
     ways: dict[int, float] = field(default_factory=dict)
     constraints: list[Constraint] = field(default_factory=list)
+    alone: dict[tuple[int, int, int], list[float]] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, seen: Observed, row: Segments) -> Model:
-        """Each element fitted alone."""
-        model = cls(seen, row)
+    def of(cls, seen: Observed, row: Segments, before: Model | None = None) -> Model:
+        """Each element fitted alone; what an earlier model of the same points knows is taken."""
+        model = cls(seen, row) if before is None else cls(seen, row, alone=before.alone)
         x: list[float] = []
         for k, (i, j, kind) in enumerate(row.found):
             if kind == FREE:
                 continue
             model.at[k] = len(x)
-            points, weights = model.counted(k)
-            if kind == LINE:
-                x += _line_of(points, weights)
-            else:
-                circle = circle_of(points, weights)
-                x += circle
-                model.ways[k] = _way(row.points[i : j + 1], np.array(circle[:2]))
+            key = ((row.first + i) % len(seen.points), j - i, kind)
+            if key not in model.alone:
+                own = _line_of if kind == LINE else circle_of
+                model.alone[key] = own(*model.counted(k))
+            x += model.alone[key]
+            if kind == ARC:
+                model.ways[k] = _way(row.points[i : j + 1], np.array(x[-3:-1]))
         model.x = np.array(x)
         return model
 
@@ -97,7 +98,7 @@ class Model:
         """How many unknowns belong to elements."""
         return max((o + 2 + (self.kind(k) == ARC) for k, o in self.at.items()), default=0)
 
-    @property
+    @cached_property
     def extent(self) -> float:
         """Of the outline."""
         return float(np.ptp(self.row.points, axis=0).max())

@@ -25,8 +25,9 @@ SLOW, BEST = 3.0, 0.3
 # Points of a table are not known better than this part of the extent (DRA-02).
 LAST_DIGIT = 1e-5
 # Dense noisy points are averaged until their steps are longer than their noise; arc length would be
-# the noise's, not the outline's (DRA-03). Of more measured points than these some are looked at.
-MOST_POINTS = 1000
+# the noise's, not the outline's (DRA-03). Of more points than these every so many-th is looked at:
+# of clean ones, of noisy ones and those of a picture, which all count (DRA-09).
+MOST_POINTS, MOST_NOISY = 1000, 6000
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,17 +64,19 @@ class Observed:
             shown = noise_level(Contour.trusted(points, closed))
             deviation = min(max(SLOW * shown, BEST * accuracy), accuracy) if shown else accuracy
             floor = SYSTEMATIC * deviation
+            points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
             return cls(points, closed, deviation, accuracy, floor, step)
         extent = float(np.ptp(points, axis=0).max())
         deviation = max(noise_level(contour), LAST_DIGIT * extent)
         k = _averaged(points, closed, deviation)
         every = len(points) // (max(k, 1) * MOST_POINTS)
         if k == 1 and every > 1:
-            points = points[::every]
+            points = _thinned(points, closed, every)
         if k > 1:
             m = len(points) // k
             points = points[: m * k].reshape(m, k, 2).mean(axis=1)
             deviation = max(deviation / k**0.5, LAST_DIGIT * extent)
+            points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
         return cls(points, closed, deviation, deviation, 0.0, 0.0)
 
     @property
@@ -85,6 +88,12 @@ class Observed:
     def step(self) -> float:
         """Median distance of neighbours."""
         return median(np.hypot(*np.diff(self.points, axis=0).T))
+
+
+def _thinned(points: FloatArray, closed: bool, every: int) -> FloatArray:
+    """Every so many-th point, and both ends of an open row."""
+    rest = points[-1:] if not closed and (len(points) - 1) % every else points[:0]
+    return np.concatenate([points[::every], rest])
 
 
 def _averaged(points: FloatArray, closed: bool, deviation: float) -> int:

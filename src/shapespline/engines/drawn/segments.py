@@ -183,6 +183,8 @@ def supported(row: Segments, closed: bool) -> Segments:
     """
     found = list(row.found)
     n = len(found)
+    if n == 1:  # all of it
+        return row
     for k, segment in enumerate(row.found):
         about = [(k - 1) % n, (k + 1) % n] if closed else [k - 1, k + 1]
         beside = [row.found[m] for m in about if 0 <= m < n and m != k]
