@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "shapespline/drawn/elimination.hpp"
 #include "shapespline/drawn/segmentation.hpp"
 
 using namespace nb::literals;
 namespace drawn = ss::drawn;
+using Rows = Array<const double, nb::ndim<2>>;
 
 void bind_drawn(nb::module_ &m) {
     nb::class_<drawn::JointPrices>(m, "JointPrices")
@@ -48,4 +50,14 @@ void bind_drawn(nb::module_ &m) {
             return std::tuple{found.centre.x, found.centre.y, found.radius, found.sum_sq};
         },
         "points"_a.noconvert(), "weights"_a.noconvert());
+    m.def(
+        "null_space",
+        [](In1 values, Rows rows, In1 units, double implied, Out1 onto, Out2 basis) {
+            const std::vector<char> free = drawn::null_space(
+                numbers(values), {rows.data(), rows.size()}, numbers(units), implied,
+                numbers(onto), {basis.data(), basis.size()});
+            return std::vector<bool>(free.begin(), free.end());
+        },
+        "values"_a.noconvert(), "rows"_a.noconvert(), "units"_a.noconvert(), "implied"_a,
+        "onto"_a.noconvert(), "basis"_a.noconvert());
 }

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "check.hpp"
+#include "shapespline/drawn/elimination.hpp"
 #include "shapespline/drawn/segmentation.hpp"
 
 using namespace shapespline;
@@ -83,4 +84,15 @@ TEST(waves_are_free_form) {
         points.push_back({x, 0.2 * std::sin(5.0 * x) + 0.1 * std::sin(8.0 * x)});
     }
     for (const DrawnPiece &piece : pieces_of(points, 1e-4)) CHECK(piece.kind == kFree);
+}
+
+TEST(steps_that_meet_equations_are_one_and_a_basis_of_all) {
+    // x + y = 1 and z = 2, the first said twice, from nothing: values are those at zero.
+    const std::vector<double> values{-1.0, -2.0, -1.0}, units{1.0, 1.0, 1.0};
+    const std::vector<double> rows{1, 1, 0, 0, 0, 1, 1, 1, 0};
+    std::vector<double> onto(3), basis(9);
+    const std::vector<char> free = null_space(values, rows, units, 1e-8, onto, basis);
+    CHECK(std::count(free.begin(), free.end(), 1) == 1);
+    CHECK(onto[0] + onto[1] == 1.0 && onto[2] == 2.0);
+    for (int j = 0; j < 3; ++j) CHECK(basis[j] + basis[3 + j] == 0.0 && basis[6 + j] == 0.0);
 }

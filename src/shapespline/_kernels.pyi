@@ -313,3 +313,11 @@ def taubin_circle(
     points: FloatArray,  # (n, 2) within [-1, 1]
     weights: FloatArray,  # (n,)
 ) -> tuple[float, float, float, float]: ...  # centre, radius (0: a line), sum of squared distances
+def null_space(
+    values: FloatArray,  # (m,)
+    rows: FloatArray,  # (m, n)
+    units: FloatArray,  # (n,)
+    implied: float,
+    onto: FloatArray,  # (n,), written
+    basis: FloatArray,  # (n, n), written
+) -> list[bool]: ...  # which columns of the basis are free

@@ -7,17 +7,21 @@ centre and the radius.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import cos, hypot, sin
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
-    from shapespline.typing import FloatArray
+    from shapespline.typing import FloatArray, IntArray
 
     ComplexArray = NDArray[np.complex128]
+    Values: TypeAlias = tuple[FloatArray, IntArray, FloatArray]
 
 
 class Constraint(Protocol):
@@ -47,12 +51,23 @@ class Difference:
 
     def value(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """h, and its Jacobian."""
-        h = x[list(self.a)] - self.turn
         jacobian = np.eye(len(self.a))
         if self.b:
-            h = h - self.sign * x[list(self.b)]
             jacobian = np.hstack([jacobian, -self.sign * jacobian])
-        return h, jacobian
+        return self.values([self], x)[0], jacobian
+
+    @staticmethod
+    def values(ones: Sequence[Difference], x: FloatArray) -> Values:
+        """H of some, the unknowns of each and the Jacobian over these."""
+        rows = [
+            (i, j, one.turn, one.sign if one.b else 0.0)
+            for one in ones
+            for i, j in zip(one.a, one.b or one.a, strict=True)
+        ]
+        table = np.array(rows).reshape(-1, 4)
+        index, turn, sign = table[:, :2].astype(np.int64), table[:, 2], table[:, 3]
+        h = x[index[:, 0]] - turn - sign * x[index[:, 1]]
+        return h, index, np.column_stack([np.ones(len(h)), -sign])
 
 
 @dataclass(frozen=True)
@@ -70,10 +85,19 @@ class LineTouches:
 
     def value(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """h, and its Jacobian."""
-        phi, d, cx, cy, r = (float(x[i]) for i in self.index)
-        c, s = cos(phi), sin(phi)
-        h = -s * cx + c * cy - d - self.way * r
-        return np.array([h]), np.array([[-c * cx - s * cy, -1.0, -s, c, -self.way]])
+        h, _, jacobian = self.values([self], x)
+        return h, jacobian
+
+    @staticmethod
+    def values(ones: Sequence[LineTouches], x: FloatArray) -> Values:
+        """H of some, the unknowns of each and the Jacobian over these."""
+        index = np.array([one.index for one in ones], dtype=np.int64).reshape(-1, 5)
+        way = np.array([one.way for one in ones])
+        phi, d, cx, cy, r = x[index].T
+        c, s = np.cos(phi), np.sin(phi)
+        h = -s * cx + c * cy - d - way * r
+        one = np.ones(len(ones))
+        return h, index, np.column_stack([-c * cx - s * cy, -one, -s, c, -way])
 
 
 @dataclass(frozen=True)
@@ -114,28 +138,31 @@ class Images:
     is_line: bool
     angle: float | None = None
 
-    @property
+    @cached_property
     def index(self) -> tuple[int, ...]:
         """The unknowns that it joins, each once."""
-        n = 2 if self.is_line else 3
-        own = [i + k for i in self.a + self.b for k in range(n)]
-        return tuple(dict.fromkeys([*own, self.at, self.at + 1]))
+        return tuple(dict.fromkeys(self._taken.ravel().tolist()))
+
+    @cached_property
+    def _taken(self) -> IntArray:
+        """One row of unknowns for each pair: own, image's, the motion's."""
+        n, motion = (2 if self.is_line else 3), (self.at, self.at + 1)
+        pairs = zip(self.a, self.b, strict=True)
+        return np.array([[*range(i, i + n), *range(j, j + n), *motion] for i, j in pairs])
+
+    @cached_property
+    def _columns(self) -> IntArray:
+        """The same as places among those that it joins."""
+        place = {i: k for k, i in enumerate(self.index)}
+        return np.array([[place[i] for i in row] for row in self._taken.tolist()])
 
     def value(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """h, and its Jacobian by complex steps, which are exact to rounding."""
         n, m = (2 if self.is_line else 3), len(self.a)
-        place = {i: k for k, i in enumerate(self.index)}
-        # One row of unknowns for each pair: own, image's, the motion's.
-        taken = np.array(
-            [
-                [*range(i, i + n), *range(j, j + n), self.at, self.at + 1]
-                for i, j in zip(self.a, self.b, strict=True)
-            ]
-        )
-        columns = np.array([[place[i] for i in row] for row in taken.tolist()])
+        taken, columns = self._taken, self._columns
         z = x[taken].astype(complex)
         h = self._values(z)
-        jacobian = np.zeros((n * m, len(place)))
+        jacobian = np.zeros((n * m, len(self.index)))
         rows = np.arange(n * m).reshape(n, m)
         for k in range(taken.shape[1]):
             z[:, k] += 1e-30j
@@ -170,3 +197,24 @@ class Images:
             far = np.cos(u) * cy - np.sin(u) * cx - v
             px, py = cx + 2 * far * np.sin(u), cy - 2 * far * np.cos(u)
         return np.stack([dx - px, dy - py, s - r])
+
+
+def equations(constraints: Sequence[Constraint], x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Values and Jacobian of all: those of one kind at once, of which there may be many."""
+    values, rows = [np.empty(0)], [np.empty((0, len(x)))]
+    differences = [one for one in constraints if isinstance(one, Difference)]
+    touches = [one for one in constraints if isinstance(one, LineTouches)]
+    for h, index, jacobian in (Difference.values(differences, x), LineTouches.values(touches, x)):
+        row = np.zeros((len(h), len(x)))
+        for column, slopes in zip(index.T, jacobian.T, strict=True):
+            row[np.arange(len(h)), column] += slopes
+        values.append(h)
+        rows.append(row)
+    for one in constraints:
+        if not isinstance(one, Difference | LineTouches):
+            h, own_slopes = one.value(x)
+            row = np.zeros((len(h), len(x)))
+            row[:, one.index] = own_slopes
+            values.append(h)
+            rows.append(row)
+    return np.concatenate(values), np.concatenate(rows)

@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 FEWEST_POINTS = 12
 # A whole circle is within so many deviations in the mean (DRA-06).
 ROUND = 2.0
+# An outline of more elements than these that have fewer points each, or that contradict their
+# points so many times, is none that was drawn, which takes long to find out (DRA-10).
+MANY_ELEMENTS, POINTS_EACH, MOST_ROUNDS = 40, 10, 30
 # Data within so many steps of a node tell its direction.
 DIRECTION_STEPS = 4
 
@@ -80,8 +83,10 @@ def as_drawn(
         if whole is not None:
             return Drawn((whole,), ())
     row = supported(segmented(seen), contour.closed)
+    if len(row.found) > max(MANY_ELEMENTS, len(seen.points) / POINTS_EACH):
+        return None
     model = None
-    for _ in range(len(row.found)):
+    for _ in range(min(len(row.found), MOST_ROUNDS)):
         model = Model.of(seen, row, model)
         if not is_enough(model):
             return None

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.engines.drawn.constraints import equations
 from shapespline.engines.drawn.segments import ARC, FREE, LINE
 
 if TYPE_CHECKING:
@@ -178,19 +179,6 @@ class Model:
         """Misfit of each element."""
         return self.normal(self.x)[2]
 
-    def equations(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """All constraints: values and Jacobian."""
-        values, rows = [], []
-        for one in self.constraints:
-            h, own = one.value(x)
-            row = np.zeros((len(h), len(x)))
-            row[:, list(one.index)] = own
-            values.append(h)
-            rows.append(row)
-        if not rows:
-            return np.empty(0), np.empty((0, len(x)))
-        return np.concatenate(values), np.concatenate(rows)
-
     def solve(self, rounds: int = ROUNDS) -> None:
         """The best estimate under the constraints."""
         if not len(self.x):
@@ -216,17 +204,9 @@ class Model:
         n = len(self.x)
         unit = np.ones(n)
         unit[[o for k, o in self.at.items() if self.kind(k) == LINE]] = 1.0 / self.extent
-        space, onto, left = np.diag(unit), np.zeros(n), np.ones(n, dtype=bool)
-        h, jacobian = self.equations(self.x)
-        for value, row in zip(h, jacobian, strict=True):
-            told = row @ space
-            pivot = int(np.argmax(np.abs(told)))
-            if abs(told[pivot]) <= IMPLIED * float(np.abs(row * unit).max()):
-                continue
-            column = space[:, pivot] / told[pivot]
-            onto -= column * (value + row @ onto)
-            space -= column[:, None] * told
-            space[:, pivot], left[pivot] = 0.0, False
+        h, jacobian = equations(self.constraints, self.x)
+        onto, space = np.empty(n), np.empty((n, n))
+        left = _kernels.null_space(h, jacobian, unit, IMPLIED, onto, space)
         return onto, space[:, left]
 
     def covariance(self) -> FloatArray:
@@ -236,24 +216,28 @@ class Model:
         found = np.zeros((n, n))
         found[range(own_end, n), range(own_end, n)] = (10 * self.extent) ** 2
         floor = self.seen.floor
-        for k, o in self.at.items():
-            size = 2 if self.kind(k) == LINE else 3
-            block = matrix[o : o + size, o : o + size]
-            inverse = np.linalg.inv(block + 1e-13 * float(np.trace(block)) * np.eye(size))
-            chi_sq, weight = misfits[k]
-            inverse *= max(1.0, chi_sq / max(weight - size, 1.0))
-            i, j, _kind = self.row.found[k]
-            length = max(float(self.row.stations[j] - self.row.stations[i]), 1e-300)
-            extra = [2 * floor / length, floor] if size == 2 else [floor] * 3
-            found[o : o + size, o : o + size] = inverse + np.diag(np.square(extra))
+        weights = np.zeros((n, n))
+        weights[range(own_end, n), range(own_end, n)] = (10 * self.extent) ** -2
+        s = self.row.stations
+        for group in self._groups:
+            at, size = group.at, len(group.at)
+            own = at.T[:, :, None], at.T[:, None, :]
+            blocks = matrix[own]
+            traces = np.trace(blocks, axis1=1, axis2=2)[:, None, None]
+            inverses = np.linalg.inv(blocks + 1e-13 * traces * np.eye(size))
+            told = np.array([misfits[k] for k in group.segments])
+            worse = told[:, 0] / np.maximum(told[:, 1] - size, 1.0)
+            inverses *= np.maximum(worse, 1.0)[:, None, None]
+            spans = [self.row.found[k][:2] for k in group.segments]
+            lengths = np.maximum([s[j] - s[i] for i, j in spans], 1e-300)
+            extra = np.full((len(lengths), size), floor)
+            if group.is_line:
+                extra[:, 0] = 2 * floor / lengths
+            inverses[:, range(size), range(size)] += extra**2
+            found[own], weights[own] = inverses, np.linalg.inv(inverses)
         if not self.constraints:
             return found
         _, space = self.null_space()
-        weights = np.zeros((n, n))
-        for k, o in self.at.items():
-            own = slice(o, o + (2 if self.kind(k) == LINE else 3))
-            weights[own, own] = np.linalg.inv(found[own, own])
-        weights[range(own_end, n), range(own_end, n)] = (10 * self.extent) ** -2
         return space @ np.linalg.inv(space.T @ weights @ space) @ space.T
 
 

@@ -13,7 +13,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn.constraints import CirclesTouch, Difference, LineTouches
+from shapespline.engines.drawn.constraints import (
+    CirclesTouch,
+    Difference,
+    LineTouches,
+    equations,
+)
 from shapespline.engines.drawn.joints import meeting, turn_at
 from shapespline.engines.drawn.segments import ARC, LINE
 from shapespline.engines.drawn.symmetry import symmetries
@@ -234,7 +239,7 @@ def tangency(model: Model, k: int, m: int) -> Constraint | None:
 
 def fits_badly(model: Model, before: dict[int, Misfit]) -> bool:
     """Whether equations are not met, or an element fits worse than noise explains."""
-    h, _ = model.equations(model.x)
+    h, _ = equations(model.constraints, model.x)
     if len(h) and float(np.abs(h).max()) > MET * model.extent:
         return True
     anyhow = ANYHOW * model.seen.largest_deviation / model.seen.deviation
