@@ -16,7 +16,7 @@ from scipy.ndimage import gaussian_filter
 import shapespline as ss
 from benchmarks.figure_style import save
 from benchmarks.howto_figures import ORANGE, TARGET, canvas
-from shapespline.tracing import trace_colors, trace_image
+from shapespline.tracing import trace
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -84,10 +84,7 @@ def show(axes: Axes, title: str, image: NDArray[Any], options: dict[str, Any]) -
     """A picture, what was found in it, and in grey what was left out."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ss.PictureWarning)
-        if "colors" in options:
-            shape = trace_colors(image, options["colors"])
-        else:
-            shape = trace_image(image, **options)
+        shape = trace(image, **options)
     if "crop" in options:
         x, y, width, height = (int(part) for part in options["crop"].split(","))
         image = image[y : y + height, x : x + width]

@@ -25,7 +25,7 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy import ndimage
 
 import shapespline as ss
-from shapespline.tracing import trace_image
+from shapespline.tracing import trace
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -125,7 +125,7 @@ def main() -> None:
         shown += 1
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ss.PictureWarning)
-            found = of_shape(trace_image(image))
+            found = of_shape(trace(image))
         theirs += by_potrace(image) == truth
         if found == truth:
             right += 1

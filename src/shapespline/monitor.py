@@ -14,6 +14,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     Callback: TypeAlias = Callable[["Iteration"], bool | None]
+    # What is told what comes next, in words; an exception that it raises ends the work.
+    Say: TypeAlias = Callable[[str], object]
+
+
+def silent(sentence: str) -> None:
+    """Nobody listens."""
 
 
 class Iteration(NamedTuple):

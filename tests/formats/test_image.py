@@ -16,7 +16,8 @@ from PIL import Image
 
 from shapespline.errors import DegenerateContourError, FormatError, PictureWarning, ShapesplineError
 from shapespline.formats.registry import read
-from shapespline.tracing import picture, trace_image
+from shapespline.tracing import picture, trace
+from shapespline.tracing.layer import Layer
 from shapespline.tracing.lighting import evenly_lit
 from shapespline.values.view_box import ViewBox
 
@@ -266,10 +267,10 @@ def test_outlines_that_enclose_nothing_are_left_out(tmp_path):
     pixels = np.full((20, 24), 200.0)
     pixels[:, :3], pixels[4:9, 12:20] = 255.0, 90.0
     pixels[15, 18] = np.nextafter(147.0, 0)  # a rounding beyond the level
-    shape = trace_image(pixels, level=147.0, polarity="dark", min_area=0)
+    shape = trace(pixels, level=147.0, polarity="dark", min_area=0)
     assert all(len(contour) > 2 for contour in shape)
 
 
 def test_pictures_smaller_than_the_blocks_of_their_light():
     pixels = np.random.default_rng(3).integers(100, 255, (20, 24)).astype(np.uint8)
-    assert np.isfinite(evenly_lit(pixels, light=False)).all()
+    assert np.isfinite(evenly_lit(Layer(pixels), light=False)[:]).all()

@@ -11,6 +11,7 @@ from shapespline.cli.declared import Option
 from shapespline.cli.gathering import gathers
 from shapespline.cli.reports import Report, drawing_record
 from shapespline.cli.run_files import Batch, run_files
+from shapespline.cli.waiting import said_when_long
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -23,10 +24,12 @@ class TraceFile:
     reading: options.Reading
     writing: options.Writing
     left_out: bool
+    alone: bool
 
     def __call__(self, source: Path, target: Path) -> Report:
         """Report of the file."""
-        shape = self.reading.outlines(source)
+        with said_when_long(self.alone) as say:
+            shape = self.reading.outlines(source, say=say)
         n_left_out = len(shape.left_out)
         if self.left_out:
             if not shape.left_out:
@@ -102,7 +105,7 @@ def trace(
 ) -> None:
     """Write the outlines of pictures, or of other files, as polylines: nothing is fitted."""
     run_files(
-        lambda _: TraceFile(reading, writing, left_out),
+        lambda found: TraceFile(reading, writing, left_out, alone=len(found) == 1),
         Batch(
             sources, output, ending, stdin_format, as_json, jobs, scheduler, resume, writing.given()
         ),

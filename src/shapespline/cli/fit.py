@@ -59,7 +59,7 @@ class FitFile:
             say(f"reading {source.name}")
             large = self.mapped(source)
             if large is None:
-                shape = self.reading.outlines(source, self.settings.tolerance)
+                shape = self.reading.outlines(source, self.settings.tolerance, say)
                 began = time.perf_counter()
                 drawing = self.fitted(shape, source, say)
             else:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from shapespline import Drawing, Shape
+    from shapespline.monitor import Say
 
     Command = Callable[..., Any]
 
@@ -169,10 +170,12 @@ class Reading:
         """Those that were given, as options of `shapespline.read`."""
         return {name: value for name, value in _given(self).items() if name != "width"}
 
-    def read(self, path: Path, sampling: float | None = None) -> Shape | Drawing:
+    def read(
+        self, path: Path, sampling: float | None = None, say: Say | None = None
+    ) -> Shape | Drawing:
         """What the file holds."""
         if self.width is None:
-            return ss.read(path, sampling=sampling, **self.given())
+            return ss.read(path, sampling=sampling, progress=say, **self.given())
         return read_wide(path, self.width, sampling, self.given())
 
     def errors(self, path: Path, columns: str) -> np.ndarray:
@@ -187,7 +190,9 @@ class Reading:
         found = columns_of(path, f"{x},{y or x}")
         return found if self.scale is None else found * self.scale
 
-    def outlines(self, path: Path, tolerance: float | str | None = None) -> Shape:
+    def outlines(
+        self, path: Path, tolerance: float | str | None = None, say: Say | None = None
+    ) -> Shape:
         """The outlines in the file; of a drawing those that it was fitted to.
 
         Exact curves are sampled to a small part of the tolerance that they are to be fitted to.
@@ -195,7 +200,7 @@ class Reading:
         sampling = None
         with suppress(TypeError, ValueError):  # none given, or a part of the size
             sampling = SAMPLING_PART * float(tolerance)  # type: ignore[arg-type]
-        shape = self.read(path, sampling if sampling and sampling > 0 else None)
+        shape = self.read(path, sampling if sampling and sampling > 0 else None, say)
         return shape if isinstance(shape, ss.Shape) else shape.shape
 
 

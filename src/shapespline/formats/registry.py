@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
     from shapespline.formats.sources import File, Source
     from shapespline.geometry import Drawable
+    from shapespline.monitor import Say
     from shapespline.values import Drawing, Shape
 
 
@@ -98,6 +99,7 @@ FORMATS = (
     Format("PDF", (".pdf",), "pdf", writes=True, arcs=False),
     Format("Python", (".py",), "python", writes=True),
 )
+_PICTURES = next(entry.suffixes for entry in FORMATS if entry.name == "image")
 
 
 def read(
@@ -110,6 +112,7 @@ def read(
     scale: float | None = None,
     dpi: float | None = None,
     sampling: float | None = None,
+    progress: Say | None = None,
     **options: object,
 ) -> Shape | Drawing:
     """Read a shape, or a drawing of curves, from a file, its format told by its ending.
@@ -138,9 +141,12 @@ def read(
     sampling : float, optional
         How closely the contours of a drawing follow its exact curves, data units; 1e-4 of the
         size of each if not given. Counts after unit and scale. Files of points have no need of it.
+    progress : callable, optional
+        Called with a sentence on what comes next, of pictures; an exception that it raises ends the
+        work.
     **options
         Further options of the format, as keyword arguments of the ``read`` of its module:
-        :mod:`shapespline.formats.image` takes level, polarity, channel, contours, min_area. One
+        :mod:`shapespline.formats.image` takes those of :func:`shapespline.trace`. One
         that is None counts as not given; one that the format does not take is refused.
 
     Returns
@@ -173,6 +179,8 @@ def read(
     if held is not None:
         return _as_wanted(held, unit, scale, dpi, sampling)
     with as_path(cast("File", path), format) as file:
+        if file.suffix.lower() in _PICTURES:
+            options["progress"] = progress
         return _read(file, options, lambda found: _as_wanted(found, unit, scale, dpi, sampling))
 
 

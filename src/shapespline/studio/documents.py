@@ -22,6 +22,7 @@ from shapespline.values import Contour, Drawing, Shape
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from shapespline.monitor import Say
     from shapespline.typing import FloatArray, IntArray
 
 MOST_BYTES = 64_000_000
@@ -88,8 +89,10 @@ def safe_name(name: object) -> str:
     return stem[: LONGEST_NAME - len(suffix[:10])] + suffix[:10]
 
 
-def opened(name: object, content: bytes, options: Mapping[str, Any]) -> Document:
-    """The document that some bytes are.
+def opened(
+    name: object, content: bytes, options: Mapping[str, Any], say: Say | None = None
+) -> Document:
+    """The document that some bytes are; told what comes next, `say` may raise to end the reading.
 
     Raises
     ------
@@ -114,7 +117,7 @@ def opened(name: object, content: bytes, options: Mapping[str, Any]) -> Document
     file.name = name
     with _READING, warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        found = read(file, **given)
+        found = read(file, progress=say, **given)
     shape = found.shape if isinstance(found, Drawing) else found
     sentences = [
         str(warning.message) for warning in said if warning.category is not ResourceWarning

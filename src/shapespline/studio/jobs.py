@@ -46,13 +46,20 @@ class Ticket:
 
     def check(self, record: Iteration | None = None) -> None:
         """Raise unless the answer is wanted: the callback of every search; tell how it goes."""
+        if record is None:
+            self.say("")
+        else:
+            so_far = f", {record.cost:.0f} points so far" if record.cost >= 1 else ""
+            self.say(f"fitting for {record.seconds:.0f} s{so_far}")
+
+    def say(self, sentence: str) -> None:
+        """Raise unless the answer is wanted; tell what comes next, not too often."""
         if self._ended.is_set():
             raise Cancelled
         now = monotonic()
-        if record is not None and self._tell is not None and now - self._told > BETWEEN:
+        if sentence and self._tell is not None and now - self._told > BETWEEN:
             self._told = now
-            so_far = f", {record.cost:.0f} points so far" if record.cost >= 1 else ""
-            self._tell(f"fitting for {record.seconds:.0f} s{so_far}")
+            self._tell(sentence)
 
 
 class Lane:

@@ -33,6 +33,7 @@ from shapespline.values import Drawing
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
+    from shapespline.monitor import Say
     from shapespline.studio.jobs import Ticket
     from shapespline.typing import IntArray
     from shapespline.values import Fit
@@ -108,13 +109,13 @@ class Session:
 
     def _open(self, header: Mapping[str, Any], content: bytes) -> None:
         options = dict(header.get("options") or {})
-        self._read(header, lambda: opened(header.get("name"), content, options), None)
+        self._read(header, lambda say: opened(header.get("name"), content, options, say), None)
 
     def _example(self, header: Mapping[str, Any], _: bytes) -> None:
         name = str(header.get("id"))
         example_bytes(name)
 
-        def make() -> Document:
+        def make(_: Say) -> Document:
             return opened_example(name)
 
         self._read(header, make, EXAMPLES[name].tolerance)
@@ -122,12 +123,12 @@ class Session:
     def _reread(self, header: Mapping[str, Any], _: bytes) -> None:
         document = self._opened()
         options = dict(header.get("options") or {})
-        self._read(header, lambda: opened(document.name, document.content, options), None)
+        self._read(header, lambda say: opened(document.name, document.content, options, say), None)
 
     def _read(
         self,
         header: Mapping[str, Any],
-        make: Callable[[], Document],
+        make: Callable[[Say], Document],
         tolerance: float | None,
     ) -> None:
         def work(ticket: Ticket) -> None:
@@ -139,7 +140,7 @@ class Session:
                     "slot": "open",
                 }
             )
-            document = make()
+            document = make(ticket.say)
             ticket.check()
             self._document = document
             self._drawings.clear()

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.errors import InvalidInputError, PictureWarning
+from shapespline.errors import InvalidInputError, PictureWarning, caller_level
 from shapespline.geometry import signed_area
+from shapespline.monitor import silent
 from shapespline.tracing.borders import OUTSIDE, Borders, Ring, borders_of, rings_of
 from shapespline.tracing.edges import EVEN, EVEN_NOISE, FARTHEST, REACH, places_across
+from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import noise_deviation
 from shapespline.tracing.lines import DRAWN_ACCURACY
 from shapespline.tracing.palette import MOST_COLORS, Palette, merged, palette_of
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from shapespline.monitor import Say
     from shapespline.typing import ArrayLike, BoolArray, FloatArray
 
 # Square pixels of the smallest area of a picture without noise, and with it: so many for each part
@@ -36,60 +39,20 @@ FAINT = 60.0
 INNER = 0.02
 
 
-def trace_colors(
+def color_areas(
     image: ArrayLike,
-    colors: int | str = "auto",
+    colors: int | str,
     *,
     min_area: float | None = None,
     blur: float | None = None,
     crop: str | Sequence[int] | None = None,
+    say: Say = silent,
 ) -> Shape:
-    """Trace a picture as areas of few colours, without gaps and without overlaps.
+    """Areas of few colours, without gaps and without overlaps; as :func:`shapespline.trace` tells.
 
-    Parameters
-    ----------
-    image : array_like, shape (h, w) or (h, w, c)
-        As for :func:`shapespline.tracing.trace_image`; what is transparent is laid on white, or on
-        black if what is visible is light.
-    colors : int or "auto"
-        How many; "auto" is as many as clearly differ, 16 at most.
-    min_area : float, optional
-        Areas of fewer square pixels go to the neighbour with which they share most border. If not
-        given, as many as the noise of the picture asks for; without noise all areas stay.
-    blur : float, optional
-        Standard deviation of a blur beforehand, pixels.
-    crop : str or sequence of int, optional
-        Column, row, width and height of the part to look at.
-
-    Returns
-    -------
-    Shape
-        For each area its outline, largest first, and the holes in it, which have it as their
-        parent; ``colors`` holds the colours of the areas. Neighbours run through the same points.
-
-    Raises
-    ------
-    InvalidInputError
-        If an option cannot be understood, or the picture has fewer colours.
-    DegenerateContourError
-        If it has one colour only.
-
-    Warns
-    -----
-    PictureWarning
-        If small areas were merged with their neighbours: how many, and how to have them.
-
-    Examples
-    --------
-    >>> image = np.full((8, 9, 3), 255, dtype=np.uint8)
-    >>> image[2:6, 3:6] = 200, 30, 30
-    >>> shape = trace_colors(image, 2)
-    >>> shape.colors, shape.parents
-    (('#ffffff', None, '#c81e1e'), (-1, 0, -1))
+    Areas of fewer square pixels than ``min_area`` go to the neighbour with which they share most
+    border; if it is not given, as many as the noise of the picture asks for; without noise all stay.
     """
-    count = _checked_count(colors)
-    if min_area is not None and not min_area >= 0:
-        raise InvalidInputError(f"min_area must be at least 0 square pixels, got {min_area}")
     pixels = _eight_bits(cropped(validated_pixels(image), crop))
     if blur:
         from scipy.ndimage import gaussian_filter
@@ -97,8 +60,9 @@ def trace_colors(
         pixels = np.rint(gaussian_filter(pixels.astype(np.float64), (blur, blur, 0))).astype(
             np.uint8
         )
-    palette = palette_of(pixels, count)
-    noise = max(noise_deviation(pixels[:, :, k], FAINT) for k in range(3)) / 255.0
+    say("looking for colours")
+    palette = palette_of(pixels, colors)
+    noise = max(noise_deviation(Layer(pixels[:, :, k]), FAINT) for k in range(3)) / 255.0
     least = min_area
     if least is None:
         least = min(LEAST_AREA + LEAST_NOISE_AREA * noise, LARGEST_LEAST)
@@ -108,17 +72,19 @@ def trace_colors(
             f"{n_merged} areas below {least:.3g} square pixels went to their neighbours:"
             " --min-area 0 (min_area=0) keeps them",
             PictureWarning,
-            stacklevel=2,
+            stacklevel=caller_level(),
         )
+    say(f"following the borders of {len(palette.colors)} colours")
     borders = borders_of(palette.labels)
     level, drawn = _places(pixels, palette, borders, noise)
     return _shape(rings_of(borders, level), drawn, palette)
 
 
-def _checked_count(colors: int | str) -> int | str:
+def checked_count(colors: int | str) -> int | str:
+    """A number of colours, or "auto"."""
     if colors == "auto":
         return "auto"
-    count = whole_number(colors)
+    count = whole_number(int(colors) if str(colors).isdecimal() else colors)
     if count is None or not 2 <= count <= MOST_COLORS:
         raise InvalidInputError(
             f"colors must be auto or a whole number from 2 to {MOST_COLORS}, got {colors!r}"

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from shapespline.tracing.field import Field
-    from shapespline.typing import BoolArray, FloatArray
+    from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # Angle between the sides, degrees, and the farthest that the level line of a drawing can be from
 # the corner, pixels: measured over all directions and places, area coverage.
@@ -56,15 +56,60 @@ SHORTEST_OUTLINE = 16.0
 
 
 class _Found(NamedTuple):
-    """Corners of one outline: places, turns, and the arc lengths where their sides take over."""
+    """Corners: the outline of each, place, turn, and the arc lengths where its sides take over."""
 
+    own: IntArray
     points: FloatArray
     turns: FloatArray
     begins: FloatArray
     ends: FloatArray
 
+    def chosen(self, which: BoolArray) -> _Found:
+        """Some of them."""
+        return _Found(*(column[which] for column in self))
 
-_NONE = _Found(np.empty((0, 2)), *(np.empty(0) for _ in range(3)))
+    def by_outline(self, count: int) -> list[_Found]:
+        """Those of each outline."""
+        parts = np.searchsorted(self.own, np.arange(1, count))
+        return [_Found(*part) for part in zip(*(np.split(x, parts) for x in self), strict=True)]
+
+
+_NONE = _Found(np.empty(0, dtype=np.int64), np.empty((0, 2)), *np.empty((3, 0)))
+
+
+class _Ways:
+    """Outlines and open lines side by side: places by arc length, of many at once.
+
+    Attributes
+    ----------
+    lengths : ndarray, shape (k,)
+    closed : ndarray of bool, shape (k,)
+    """
+
+    def __init__(self, lines: Sequence[FloatArray], closed: Sequence[bool]) -> None:
+        around = [
+            np.concatenate([line, line[:1]]) if ring else line
+            for line, ring in zip(lines, closed, strict=True)
+        ]
+        stations = [_stations(line) for line in around]
+        self.lengths = np.array([s[-1] for s in stations])
+        self.closed = np.array(closed)
+        self._points, self._s = np.concatenate(around), np.concatenate(stations)
+        # A way begins a pixel after the one before it ends.
+        self._starts = np.concatenate([[0.0], np.cumsum(self.lengths + 1.0)[:-1]])
+        self._global = self._s + np.repeat(self._starts, [len(s) for s in stations])
+
+    def at(self, own: IntArray, where: FloatArray) -> FloatArray:
+        """Points of some ways at arc lengths; beyond the end of an open one its end."""
+        length = self.lengths[own]
+        where = np.where(self.closed[own], where % length, np.clip(where, 0.0, length))
+        right = np.searchsorted(self._global, self._starts[own] + where, side="right")
+        left = np.clip(right - 1, 0, len(self._s) - 2)
+        begin, end = self._s[left], self._s[left + 1]
+        span = np.where(end > begin, end - begin, 1.0)  # the last point of a way ends none
+        share = np.where(end > begin, where - begin, 0.0) / span
+        a, b = self._points[left], self._points[left + 1]
+        return np.asarray(a + share[..., None] * (b - a))
 
 
 def sharpened(
@@ -85,90 +130,129 @@ def sharpened(
         Which of them the grey of the picture told; the others keep the corners that they have.
     field : Field
     """
-    found = [
-        _corners(points, line) if certain else _NONE
-        for points, line, certain in zip(outlines, level_lines, drawn, strict=True)
-    ]
-    tried = [_with(points, corners) for points, corners in zip(outlines, found, strict=True)]
-    at = np.concatenate([corners.points for corners in found])
-    if len(at) == 0:
+    found = meetings(outlines, level_lines, drawn, [True] * len(outlines))
+    if len(found.points) == 0:
         return list(outlines)
-    turns = np.concatenate([corners.turns for corners in found])
-    rounded = ROUNDING**2 * (np.tan(0.5 * turns) - 0.5 * turns)
+    tried = with_corners(outlines, found, [True] * len(outlines))
     noise = field.noise * (2 * AROUND + 1)
-    good = np.abs(_missing(at, tried, field)) <= UNCERTAIN + rounded + 3 * noise
-    ends = np.cumsum([len(corners.points) for corners in found])
-    return [
-        _with(points, _Found(*(column[kept] for column in corners)))
-        for points, corners, kept in zip(outlines, found, np.split(good, ends[:-1]), strict=True)
-    ]
+    missing = _missing(found.points, tried, field)
+    good = np.abs(missing) <= UNCERTAIN + rounded_off(found.turns) + 3 * noise
+    return with_corners(outlines, found.chosen(good), [True] * len(outlines))
 
 
-def _corners(points: FloatArray, line: FloatArray) -> _Found:
-    """Where the sides of an outline meet, as far as its level line allows."""
-    s = _stations(points)
-    if s[-1] < SHORTEST_OUTLINE:
+def rounded_off(turns: FloatArray) -> FloatArray:
+    """Square pixels that a rounding takes from corners."""
+    return np.asarray(ROUNDING**2 * (np.tan(0.5 * turns) - 0.5 * turns))
+
+
+def meetings(
+    outlines: Sequence[FloatArray],
+    level_lines: Sequence[FloatArray],
+    drawn: Sequence[bool],
+    closed: Sequence[bool],
+) -> _Found:
+    """Where the sides of outlines and open lines meet, as far as their level lines allow."""
+    long = [length >= SHORTEST_OUTLINE for length in map(_length, outlines)]
+    used = np.flatnonzero(np.array(drawn, dtype=bool) & np.array(long))
+    if len(used) == 0:
         return _NONE
-    at, turn = _candidates(points, s)
-    if len(at) == 0:
-        return _NONE
+    ways = _Ways([outlines[k] for k in used], [closed[k] for k in used])
+    own, at, turn = _candidates(ways)
     turn = np.abs(turn)
+    sides, wide, apart = [], np.empty(0), np.empty(0)
+    meets, near = np.empty((0, 2)), np.empty(0)
     for _ in range(ROUNDS):
+        if len(own) == 0:
+            return _NONE
         near = DISTURBED + SQUARE * np.tan(0.5 * turn)
-        ahead = np.diff(np.append(at, at[0] + s[-1]))
-        behind = np.roll(ahead, 1)
+        behind, ahead = _room(ways, own, at)
         sides, wide = [], np.full(len(at), np.inf)
         for room, sign in ((behind, -1.0), (ahead, 1.0)):
             far = np.minimum(SIDE, room - near)
-            sides.append(_side(points, s, at, near, far, sign))
+            sides.append(_side(ways, own, at, near, far, sign))
             wide = np.minimum(wide, far - near)
         meets, turn, off, apart = _meeting(*(side[0] for side in sides))
         at = at + np.clip(off, -SAME_CORNER, SAME_CORNER)
-        in_order = np.argsort(at)
-        if (in_order != np.arange(len(at))).any():
-            return _NONE
+        # An outline whose corners change places has none.
+        kept = ~np.isin(own, own[1:][(np.diff(at) < 0) & (np.diff(own) == 0)])
+        if not kept.all():
+            own, at, turn, near, wide, apart = (
+                column[kept] for column in (own, at, turn, near, wide, apart)
+            )
+            meets, sides = meets[kept], [(one[kept], fits[kept]) for one, fits in sides]
     cut_off = np.interp(np.degrees(np.pi - turn), ANGLES, CUT_OFF)
     good = sides[0][1] & sides[1][1] & (wide >= SHORTEST_SIDE) & (turn > LEAST_TURN)
     # The sides of a stroke's round end run side by side and meet nowhere.
     good &= apart <= MEET
-    good &= _distance(meets, line) <= cut_off
+    own = used[own]
+    good[good] = _distances(meets[good], own[good], level_lines, closed) <= cut_off[good]
     # Edges along the rows and columns meet on whole numbers, but for a rounding.
     meets = np.round(meets, DIGITS)
-    return _Found(meets[good], turn[good], (at - near)[good], (at + near)[good])
+    return _Found(own, meets, turn, at - near, at + near).chosen(good)
 
 
 def _stations(points: FloatArray) -> FloatArray:
-    """Arc length at each vertex and, at the end, of the whole closed outline."""
-    steps = np.roll(points, -1, axis=0) - points
+    """Arc length at each vertex of an open line."""
+    steps = np.diff(points, axis=0)
     return np.concatenate([[0.0], np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))])
 
 
-def _at(points: FloatArray, s: FloatArray, where: FloatArray) -> FloatArray:
-    x, y = (np.interp(where, s[:-1], axis, period=s[-1]) for axis in points.T)
-    return np.stack([x, y], axis=-1)
+def _length(points: FloatArray) -> float:
+    steps = np.diff(points, axis=0)
+    return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
 
-def _candidates(points: FloatArray, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Arc lengths where an outline turns most, and by how much."""
+def _room(ways: _Ways, own: IntArray, at: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Arc length from each candidate to the one before and the one after it, or to an end."""
+    first, last = np.searchsorted(own, own), np.searchsorted(own, own, side="right") - 1
+    index, length, closed = np.arange(len(own)), ways.lengths[own], ways.closed[own]
+    before = np.where(index > first, at[np.maximum(index - 1, 0)],
+                      np.where(closed, at[last] - length, 0.0))  # fmt: skip
+    after = np.where(index < last, at[np.minimum(index + 1, len(own) - 1)],
+                     np.where(closed, at[first] + length, length))  # fmt: skip
+    return at - before, after - at
+
+
+def _candidates(ways: _Ways) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Where ways turn most: the way, the arc length, and by how much."""
     step = 0.25
-    at = np.arange(0.0, s[-1], step)
+    counts = np.ceil(ways.lengths / step).astype(np.int64)
+    own = np.repeat(np.arange(len(counts)), counts)
+    starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
+    at = step * (np.arange(len(own)) - starts[own])
     near, far = CHORD
-    before = _at(points, s, at - near) - _at(points, s, at - far)
-    after = _at(points, s, at + far) - _at(points, s, at + near)
+    before = ways.at(own, at - near) - ways.at(own, at - far)
+    after = ways.at(own, at + far) - ways.at(own, at + near)
     turn = _turn(before, after)
+    # Nothing turns where a side leaves an open line.
+    turn[~ways.closed[own] & ((at < far) | (at > ways.lengths[own] - far))] = 0.0
     reach = round(SAME_CORNER / step)
-    padded = np.pad(np.abs(turn), reach, mode="wrap")
-    windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1)
-    top = (np.abs(turn) >= windows.max(axis=1) - 1e-6) & (np.abs(turn) > LEAST_TURN)
-    index = np.flatnonzero(top)
+    sharp = np.abs(turn)
+    highest = sharp.copy()
+    for shift in range(1, reach + 1):
+        for way in (-shift, shift):
+            index = np.arange(len(own)) - starts[own] + way
+            highest = np.maximum(highest, sharp[starts[own] + index % counts[own]])
+    index = np.flatnonzero((sharp >= highest - 1e-6) & (sharp > LEAST_TURN))
     if len(index) == 0:
-        return np.empty(0), np.empty(0)
+        return np.empty(0, dtype=np.int64), np.empty(0), np.empty(0)
     # Of a flat top the middle.
-    groups = np.split(index, np.flatnonzero(np.diff(index) > reach) + 1)
-    if len(groups) > 1 and groups[0][0] + len(at) - groups[-1][-1] <= reach:
-        groups[0] = np.concatenate([groups.pop() - len(at), groups[0]])
-    middle = np.array([group.mean() for group in groups])
-    return step * middle, turn[np.round(middle).astype(int)]
+    apart = (np.diff(index) > reach) | (np.diff(own[index]) > 0)
+    groups = np.split(index, np.flatnonzero(apart) + 1)
+    middles, of = [], []
+    begin = 0
+    while begin < len(groups):
+        one, end = own[groups[begin][0]], begin
+        while end < len(groups) and own[groups[end][0]] == one:
+            end += 1
+        mine, n, first = groups[begin:end], counts[one], starts[one]
+        if len(mine) > 1 and mine[0][0] - first + n - (mine[-1][-1] - first) <= reach:
+            mine[0] = np.concatenate([mine.pop() - n, mine[0]])
+        middles += [group.mean() - first for group in mine]
+        of += [one] * len(mine)
+        begin = end
+    which, middle = np.array(of), np.array(middles)
+    return which, step * middle, turn[starts[which] + np.round(middle).astype(int)]
 
 
 def _turn(before: FloatArray, after: FloatArray) -> FloatArray:
@@ -177,8 +261,8 @@ def _turn(before: FloatArray, after: FloatArray) -> FloatArray:
 
 
 def _side(
-    points: FloatArray,
-    s: FloatArray,
+    ways: _Ways,
+    own: IntArray,
     at: FloatArray,
     near: FloatArray,
     far: FloatArray,
@@ -187,7 +271,7 @@ def _side(
     """Polynomials of degree 2 in the distance from each corner, shape (k, 3, 2); which fit."""
     span = np.maximum(far - near, SHORTEST_SIDE)
     t = near[:, None] + _SHARES * span[:, None]
-    seen = _at(points, s, (at[:, None] + sign * t).ravel()).reshape(len(at), SAMPLES, 2)
+    seen = ways.at(np.broadcast_to(own[:, None], t.shape), at[:, None] + sign * t)
     line, line_off = _fitted(seen, 1)
     bent, bent_off = _fitted(seen, 2)
     straight = line_off <= TIE_FACTOR * bent_off + TIE
@@ -230,20 +314,51 @@ def _meeting(
     return meets, turn, 0.5 * (t[:, 1] - t[:, 0]), apart
 
 
-def _distance(points: FloatArray, line: FloatArray) -> FloatArray:
-    """Of points to a closed polyline whose edges are short."""
+def _distances(
+    points: FloatArray, own: IntArray, lines: Sequence[FloatArray], closed: Sequence[bool]
+) -> FloatArray:
+    """Of points to polylines whose edges are short, each to its own; infinite if far."""
     from scipy.spatial import cKDTree
 
-    ahead = np.roll(line, -1, axis=0) - line
-    dense = np.concatenate([line + share * ahead for share in np.arange(0.0, 1.0, 0.125)])
-    return np.asarray(cKDTree(dense).query(points)[0])
+    used = np.unique(own)
+    if len(used) == 0:
+        return np.empty(0)
+    begins = [lines[k] if closed[k] else lines[k][:-1] for k in used]
+    steps = np.concatenate(
+        [np.diff(lines[k], axis=0, append=lines[k][: int(closed[k])]) for k in used]
+    )
+    # Each line in a plane of its own, far from the others.
+    planes = 10 * SIDE * used
+    tree = cKDTree(
+        np.column_stack([np.concatenate(begins), np.repeat(planes, [len(x) for x in begins])])
+    )
+    near = tree.query_ball_point(np.column_stack([points, 10 * SIDE * own]), SIDE)
+    counts = np.array([len(one) for one in near])
+    edges = np.concatenate([np.asarray(one, dtype=np.int64) for one in near])
+    off = tree.data[edges, :2] - np.repeat(points, counts, axis=0)
+    best = np.full(len(edges), np.inf)
+    for share in np.arange(0.0, 1.0, 0.125):
+        best = np.minimum(best, np.hypot(*(off + share * steps[edges]).T))
+    found = np.full(len(points), np.inf)
+    some = counts > 0
+    found[some] = np.minimum.reduceat(best, (np.cumsum(counts) - counts)[some])
+    return found
 
 
-def _with(points: FloatArray, corners: _Found) -> FloatArray:
-    """The outline with corners in place of what lies between their sides."""
-    if len(corners.points) == 0:
-        return points
-    s = _stations(points)
+def with_corners(
+    lines: Sequence[FloatArray], corners: _Found, closed: Sequence[bool]
+) -> list[FloatArray]:
+    """Outlines and open lines with corners in place of what lies between their sides."""
+    return [
+        _with(points, own, ring) if len(own.points) else points
+        for points, own, ring in zip(
+            lines, corners.by_outline(len(lines)), closed, strict=True
+        )
+    ]
+
+
+def _with(points: FloatArray, corners: _Found, ring: bool) -> FloatArray:
+    s = _stations(np.concatenate([points, points[:1]]))
     length = s[-1]
     kept = np.ones(len(points), dtype=bool)
     for begin, end in zip(corners.begins, corners.ends, strict=True):
@@ -255,7 +370,7 @@ def _with(points: FloatArray, corners: _Found) -> FloatArray:
 
 def _missing(at: FloatArray, outlines: Sequence[FloatArray], field: Field) -> FloatArray:
     """Ink around each corner that the picture has and the outlines do not, square pixels."""
-    height, width = field.values.shape
+    height, width = field.shape
     keys, drawn = border_coverage(outlines, height, width)
     column = np.floor(at[:, 0]).astype(np.int64)
     row = np.floor(height - at[:, 1]).astype(np.int64)

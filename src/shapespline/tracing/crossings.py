@@ -11,8 +11,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.errors import DegenerateContourError
+from shapespline.monitor import silent
+from shapespline.tracing.layer import strips
+from shapespline.tracing.threads import ink_and_threads
 
 if TYPE_CHECKING:
+    from shapespline.monitor import Say
     from shapespline.tracing.field import Field
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
@@ -83,55 +87,83 @@ class Crossings(NamedTuple):
         return np.column_stack([x, y])
 
 
-def crossings(field: Field, ink: BoolArray) -> Crossings:
+def crossings(field: Field, say: Say = silent) -> Crossings:
     """Crossings of the border of the ink; what touches the rim is closed along it.
 
     Parameters
     ----------
     field : Field
-    ink : ndarray of bool, shape (h, w)
+    say : callable
+        Told how far it is.
 
     Raises
     ------
     DegenerateContourError
         If there are so many that the picture is noise.
     """
-    padded = np.pad(ink, 1)
-    height, width = field.values.shape
-    beside, below = padded[:, :-1] != padded[:, 1:], padded[:-1] != padded[1:]
-    sides = [np.flatnonzero(beside), np.flatnonzero(below)]
-    count, possible = len(sides[0]) + len(sides[1]), 2 * height * width
-    if count > max(FEW_CROSSINGS, CROSSED_PART * possible):
-        raise DegenerateContourError(
-            f"{count} of {possible} pairs of neighbouring pixels differ: the picture is noise or a"
-            " pattern as fine as its pixels; blur it, scale it down or choose another level"
-        )
-    del beside, below
-    split = np.concatenate([np.stack(np.divmod(sides[0], width + 1)),
-                            np.stack(np.divmod(sides[1], width + 2))], axis=1)  # fmt: skip
-    numbers = np.concatenate([sides[0], (height + 2) * (width + 1) + sides[1]])
-    row, column = split
+    height, width = field.shape
+    possible = 2 * height * width
+    found: list[tuple[IntArray, ...]] = []
+    count = 0
+    for rows in strips((height + 1, width)):
+        if rows.start:
+            say(f"looking for edges, row {rows.start} of {height}")
+        found.append(_of_strip(field, rows))
+        count += len(found[-1][0]) + len(found[-1][1])
+        if count > max(FEW_CROSSINGS, CROSSED_PART * possible):
+            looked_at = 2 * min(rows.stop, height) * width
+            raise DegenerateContourError(
+                f"{count} of {looked_at} pairs of neighbouring pixels differ: the picture is noise"
+                " or a pattern as fine as its pixels; blur it, scale it down or choose another level"
+            )
+    say(f"following {count} crossings")
+    beside, below, ink_beside, ink_below, cells, codes = map(
+        np.concatenate, zip(*found, strict=True)
+    )
+    found.clear()
+    row, column = np.concatenate([np.stack(np.divmod(beside, width + 1)),
+                                  np.stack(np.divmod(below, width + 2))], axis=1)  # fmt: skip
+    numbers = np.concatenate([beside, (height + 2) * (width + 1) + below])
     return Crossings(
         row - 1,
         column - 1,
-        np.arange(count) >= len(sides[0]),
-        padded[row, column],
-        _loops(_following(padded, numbers, field)),
+        np.arange(count) >= len(beside),
+        np.concatenate([ink_beside, ink_below]),
+        _loops(_following(cells, codes, numbers, field)),
     )
 
 
-def _following(padded: BoolArray, numbers: IntArray, field: Field) -> IntArray:
-    """For each crossing the next one on its line."""
-    width = padded.shape[1] - 2
+def _of_strip(field: Field, rows: slice) -> tuple[IntArray, ...]:
+    """Crossings of some rows of the picture with a rim around it, side by side and one above the
+    other, with whether the first of two is ink; its cells that something crosses, and which of
+    their corners are ink."""
+    height, width = field.shape
+    inner = slice(max(rows.start - 1, 0), min(rows.stop, height))
+    above, under = int(rows.start == 0), int(rows.stop > height)
+    padded = np.pad(ink_and_threads(field, inner), ((above, under), (1, 1)))
     code = padded[:-1, :-1].astype(np.uint8)
     for corner, bit in ((padded[:-1, 1:], 2), (padded[1:, 1:], 4), (padded[1:, :-1], 8)):
         code += corner * np.uint8(bit)
     cells = np.flatnonzero((code != 0) & (code != 15))
     codes = code.ravel()[cells]
     del code
+    beside = np.flatnonzero(padded[:-1, :-1] != padded[:-1, 1:])
+    below = np.flatnonzero(padded[:-1] != padded[1:])
+    ink_beside = padded[:-1, :-1].ravel()[beside]
+    ink_below = padded[:-1].ravel()[below]
+    first = rows.start
+    return (
+        beside + first * (width + 1), below + first * (width + 2), ink_beside, ink_below,
+        cells + first * (width + 1), codes,
+    )  # fmt: skip
+
+
+def _following(cells: IntArray, codes: IntArray, numbers: IntArray, field: Field) -> IntArray:
+    """For each crossing the next one on its line."""
+    height, width = field.shape
     row, column = np.divmod(cells, width + 1)
     upper = row * (width + 1) + column
-    left = padded.shape[0] * (width + 1) + row * (width + 2) + column
+    left = (height + 2) * (width + 1) + row * (width + 2) + column
     sides = (upper, left + 1, upper + width + 1, left)
     following = np.full(len(numbers), -1)
 

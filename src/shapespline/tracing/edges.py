@@ -51,7 +51,7 @@ def level_shares(field: Field, found: Crossings) -> FloatArray:
     Ink that does not reach the level, of a thread, reaches it barely.
     """
     first, second = found.excesses(field)
-    at_rim = found.at_rim(*field.values.shape)
+    at_rim = found.at_rim(*field.shape)
     return np.where(at_rim, 0.5, first / np.where(at_rim, 1.0, first - second))
 
 
@@ -78,7 +78,7 @@ def drawn_shares(field: Field, found: Crossings, shares: FloatArray) -> Edges:
         ahead = np.where(part.ink_first, REACH - place, place - REACH) + 0.5
         moved = np.abs(ahead - shares[chunk])
         # No place at all is NaN, and no nearer than that.
-        known[chunk] = (moved <= FARTHEST) & ~part.at_rim(*field.values.shape)
+        known[chunk] = (moved <= FARTHEST) & ~part.at_rim(*field.shape)
         out[chunk] = np.where(known[chunk], ahead, shares[chunk])
     return Edges(out, known)
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from shapespline.tracing.layer import Layer
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 
@@ -22,8 +21,8 @@ class Field:
 
     Attributes
     ----------
-    values : ndarray, shape (h, w)
-    cut : float or ndarray of shape (h, w)
+    values : Layer
+    cut : float
         Where ink and ground part; no pixel lies on it.
     light : bool
         Whether the ink has the greater values.
@@ -33,22 +32,25 @@ class Field:
         Standard deviation of the values where the picture is even, as a part of the contrast.
     """
 
-    values: NDArray[Any]
-    cut: float | FloatArray
+    values: Layer
+    cut: float
     light: bool
     contrast: float
     noise: float = 0.0
 
     @property
-    def ink(self) -> BoolArray:
-        """Which pixels are ink by more than half."""
-        above = self.values >= self.cut
+    def shape(self) -> tuple[int, int]:
+        """Height and width of the picture."""
+        return self.values.shape
+
+    def ink(self, rows: slice) -> BoolArray:
+        """Which pixels of some rows are ink by more than half."""
+        above = self.values[rows] >= self.cut
         return above if self.light else ~above
 
     def coverage(self, row: IntArray, column: IntArray) -> FloatArray:
         """Part of pixels that is ink, 1/2 at the cut; outside the picture that of its rim."""
-        height, width = self.values.shape
+        height, width = self.shape
         row, column = np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)
-        cut = self.cut if np.ndim(self.cut) == 0 else cast("FloatArray", self.cut)[row, column]
-        excess = (self.values[row, column] - cut) / self.contrast
+        excess = (self.values[row, column] - self.cut) / self.contrast
         return 0.5 + (excess if self.light else -excess)

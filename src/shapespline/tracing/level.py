@@ -12,18 +12,16 @@ References
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.tracing.layer import Layer, strips
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
-FLOAT_BINS = 1024
 # Neighbours are even if they differ by no more than this part of the range of values.
 EVEN = 0.04
 # A class with fewer even pixels than this part of it has none to speak of: its value is then that
@@ -55,7 +53,7 @@ class _Histogram(NamedTuple):
     centres: FloatArray
 
 
-def picture_level(values: NDArray[Any], level: float | None = None) -> Level:
+def picture_level(values: Layer, level: float | None = None) -> Level:
     """The cut asked for or found, and the values of what it parts.
 
     The cut is moved off the values of pixels: for integers to the next half, so that no pixel lies
@@ -63,7 +61,7 @@ def picture_level(values: NDArray[Any], level: float | None = None) -> Level:
 
     Parameters
     ----------
-    values : ndarray, shape (h, w)
+    values : Layer
         Unsigned integers of 8 or 16 bits, or floats (sorted into 1024 bins).
     level : float, optional
 
@@ -76,10 +74,10 @@ def picture_level(values: NDArray[Any], level: float | None = None) -> Level:
 
     Examples
     --------
-    >>> picture_level(np.array([[0, 0, 10, 200, 200]], dtype=np.uint8))
+    >>> picture_level(Layer(np.array([[0, 0, 10, 200, 200]], dtype=np.uint8)))
     Level(cut=99.5, dark=0.0, light=200.0)
     """
-    lowest, highest = float(values.min()), float(values.max())
+    lowest, highest = values.range
     if lowest == highest:
         raise DegenerateContourError(
             f"every pixel has the value {lowest:g}; there is no outline: choose another file or"
@@ -94,10 +92,10 @@ def picture_level(values: NDArray[Any], level: float | None = None) -> Level:
         cut = 0.5 * (dark + light)
     else:
         cut = float(level)
-    if values.dtype.kind == "u":
+    if values.is_whole:
         cut = float(np.ceil(cut)) - 0.5
-    elif lowest < cut and (values == cut).any():
-        cut = 0.5 * (cut + float(values[values < cut].max()))
+    elif lowest < cut:
+        cut = _off_values(values, cut)
     if not lowest < cut <= highest:
         raise DegenerateContourError(
             f"level {level} leaves no outline: the pixels range from {lowest:g} to {highest:g};"
@@ -108,7 +106,17 @@ def picture_level(values: NDArray[Any], level: float | None = None) -> Level:
     return Level(cut, dark, light)
 
 
-def noise_deviation(values: NDArray[Any], contrast: float) -> float:
+def _off_values(values: Layer, cut: float) -> float:
+    """The cut, or half-way down from it to the next value if a pixel has it."""
+    met, below = False, -np.inf
+    for rows in strips(values.shape):
+        part = values[rows]
+        met = met or bool((part == cut).any())
+        below = max(below, float(part.max(where=part < cut, initial=-np.inf)))
+    return 0.5 * (cut + below) if met else cut
+
+
+def noise_deviation(values: Layer, contrast: float) -> float:
     """Standard deviation of what changes from pixel to pixel where the picture is even.
 
     Of second differences between neighbours and between next ones, along rows and along columns:
@@ -119,12 +127,12 @@ def noise_deviation(values: NDArray[Any], contrast: float) -> float:
     Examples
     --------
     >>> grain = np.random.default_rng(1).normal(100.0, 3.0, (200, 200))
-    >>> bool(2.9 < noise_deviation(grain, 50.0) < 3.1)
+    >>> bool(2.9 < noise_deviation(Layer(grain), 50.0) < 3.1)
     True
     """
     step = max(1, round(values.size / NOISE_SAMPLE))
     found = [0.0]
-    for lines in (values[::step], values.T[::step]):
+    for lines in (values[::step], values[:, ::step].T):
         for gap in (1, 2):
             if lines.shape[1] <= 2 * gap:
                 continue
@@ -136,12 +144,12 @@ def noise_deviation(values: NDArray[Any], contrast: float) -> float:
     return max(found) / (_NORMAL_MEDIAN * _SECOND_DIFFERENCE)
 
 
-def halfway_to_other(values: NDArray[Any], full: float) -> float | None:
+def halfway_to_other(values: Layer, full: float) -> float | None:
     """Level half-way from nothing to the least other value that even parts have; None for none.
 
     Parameters
     ----------
-    values : ndarray, shape (h, w)
+    values : Layer
         How far pixels are from a colour.
     full : float
         The largest difference that there can be.
@@ -150,7 +158,7 @@ def halfway_to_other(values: NDArray[Any], full: float) -> float | None:
     --------
     >>> values = np.zeros((9, 30))
     >>> values[:, 10:20], values[:, 20:] = 80.0, 200.0
-    >>> bool(abs(halfway_to_other(values, 255.0) - 40) < 1)
+    >>> bool(abs(halfway_to_other(Layer(values), 255.0) - 40) < 1)
     True
     """
     histogram = _histogram(values)
@@ -162,22 +170,21 @@ def halfway_to_other(values: NDArray[Any], full: float) -> float | None:
     return min(0.5 * float(least), FARTHEST * full)
 
 
-def _histogram(values: NDArray[Any]) -> _Histogram:
+def _histogram(values: Layer) -> _Histogram:
     """How often each value occurs, and how often on even pixels, of a sample of rows."""
     rows = np.arange(1, values.shape[0] - 1, values.size // EVEN_SAMPLE + 1)
+    counts, (lowest, highest) = values.counts, values.range
     middle = values[rows]
-    if values.dtype.kind == "u":
-        counts = np.bincount(values.ravel())
+    if values.is_whole:
         centres = np.arange(len(counts), dtype=np.float64)
-        near = int(EVEN * (int(values.max()) - int(values.min())))
-        even = middle[_even(values, rows, near)]
+        even = middle[_even(values, rows, int(EVEN * (highest - lowest)))]
         return _Histogram(counts, np.bincount(even, minlength=len(counts)), centres)
-    counts, edges = np.histogram(values, FLOAT_BINS)
-    even = middle[_even(values, rows, EVEN * float(values.max() - values.min()))]
+    edges = values.bins
+    even = middle[_even(values, rows, EVEN * (highest - lowest))]
     return _Histogram(counts, np.histogram(even, edges)[0], 0.5 * (edges[1:] + edges[:-1]))
 
 
-def _even(values: NDArray[Any], rows: IntArray, near: float) -> BoolArray:
+def _even(values: Layer, rows: IntArray, near: float) -> BoolArray:
     """Which pixels of some rows differ from their four neighbours by no more."""
     middle = values[rows]
     even = np.zeros(middle.shape, dtype=bool)

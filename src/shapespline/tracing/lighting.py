@@ -9,18 +9,23 @@ that falls on it, so the picture is divided by its ground; from light ink the gr
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from shapespline.errors import InvalidInputError
+from shapespline.tracing.layer import Layer, places_of
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Callable
 
     from shapespline.tracing.crossings import Crossings
     from shapespline.tracing.field import Field
-    from shapespline.typing import FloatArray
+    from shapespline.tracing.layer import Key
+    from shapespline.typing import FloatArray, IntArray
+
+    # What the ground is worth at rows and columns.
+    Ground: TypeAlias = Callable[[IntArray, IntArray], FloatArray]
 
 # Blocks along the longer side, and the part of a block's pixels that show its ground.
 BLOCKS, GROUND_PART = 48, 0.1
@@ -35,7 +40,7 @@ EDGE, REACH, ALONG_NOTHING, BETTER = 0.35, 3, 0.12, 0.6
 
 def part_along_nothing(field: Field, found: Crossings) -> float:
     """Part of the level lines that runs along no edge of the picture."""
-    inner = np.flatnonzero(~found.at_rim(*field.values.shape))
+    inner = np.flatnonzero(~found.at_rim(*field.shape))
     if len(inner) == 0:
         return 0.0
     part = found.chosen(inner[:: len(inner) // 200_000 + 1])
@@ -46,12 +51,26 @@ def part_along_nothing(field: Field, found: Crossings) -> float:
     return float((np.ptp(across, axis=1) < EDGE).mean())
 
 
-def evenly_lit(values: NDArray[Any], light: bool, window: float | None = None) -> FloatArray:
-    """The picture on an even ground: 1 where the ink is dark, 0 where it is light.
+class EvenlyLit(Layer):
+    """A picture on an even ground: 1 where the ink is dark, 0 where it is light."""
+
+    def __init__(self, values: Layer, light: bool, ground: Ground) -> None:
+        super().__init__(values)
+        self._light, self._ground = light, ground
+
+    def __getitem__(self, key: Key) -> FloatArray:
+        """Values of a part, as numpy indexes it."""
+        ground = self._ground(*places_of(key, self.shape))
+        values = super().__getitem__(key)
+        return np.asarray(values - ground if self._light else values / ground, dtype=np.float64)
+
+
+def evenly_lit(values: Layer, light: bool, window: float | None = None) -> EvenlyLit:
+    """The picture on its ground.
 
     Parameters
     ----------
-    values : ndarray, shape (h, w)
+    values : Layer
     light : bool
         Whether the ink is lighter than the ground.
     window : float, optional
@@ -82,15 +101,16 @@ def evenly_lit(values: NDArray[Any], light: bool, window: float | None = None) -
     if window is None:
         ground = _smooth_ground(blocks, centres, values.shape, light)
     else:
-        ground = _near_ground(blocks, centres, values.shape, light)
+        ground = _near_ground(blocks, centres, light)
+    least = 1e-3 * float(blocks.max()) + 1e-12
     if light:
-        return np.asarray(values - ground, dtype=np.float64)
-    return np.asarray(values / np.maximum(ground, 1e-3 * float(blocks.max()) + 1e-12))
+        return EvenlyLit(values, light, ground)
+    return EvenlyLit(values, light, lambda rows, columns: np.maximum(ground(rows, columns), least))
 
 
 def _smooth_ground(
-    blocks: FloatArray, centres: list[FloatArray], shape: tuple[int, ...], light: bool
-) -> FloatArray:
+    blocks: FloatArray, centres: list[FloatArray], shape: tuple[int, int], light: bool
+) -> Ground:
     """A polynomial through the blocks of ground."""
     y, x = (2 * c / n - 1 for c, n in zip(centres, shape, strict=True))
     degrees = [(i, j) for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)]
@@ -105,27 +125,32 @@ def _smooth_ground(
         if kept.sum() < 2 * len(degrees) or (kept == used).all():
             break
         used = kept
-    y, x = (2 * (np.arange(n) + 0.5) / n - 1 for n in shape)
-    columns = np.array([x**j for j in range(DEGREE + 1)])
-    ground = np.zeros(shape)
-    for i in range(DEGREE + 1):
-        row = sum(
-            value * columns[j] for (k, j), value in zip(degrees, solved, strict=True) if k == i
+
+    def ground(rows: IntArray, columns: IntArray) -> FloatArray:
+        y, x = (
+            2 * (at + 0.5) / n - 1 for at, n in zip((rows, columns), shape, strict=True)
         )
-        ground += np.outer(y**i, row)
+        found = np.zeros(np.broadcast_shapes(y.shape, x.shape))
+        for i in range(DEGREE + 1):
+            own = [value * x**j for (k, j), value in zip(degrees, solved, strict=True) if k == i]
+            found += y**i * sum(own)
+        return found
+
     return ground
 
 
-def _near_ground(
-    blocks: FloatArray, centres: list[FloatArray], shape: tuple[int, ...], light: bool
-) -> FloatArray:
+def _near_ground(blocks: FloatArray, centres: list[FloatArray], light: bool) -> Ground:
     """Between blocks that each take the best ground of their neighbours."""
     from scipy import ndimage
 
     best = (ndimage.minimum_filter if light else ndimage.maximum_filter)(blocks, 3, mode="nearest")
     best = ndimage.gaussian_filter(best, 0.7, mode="nearest")
-    rows = np.interp(np.arange(shape[0]) + 0.5, centres[0], np.arange(len(centres[0])))
-    columns = np.interp(np.arange(shape[1]) + 0.5, centres[1], np.arange(len(centres[1])))
-    return np.asarray(
-        ndimage.map_coordinates(best, np.meshgrid(rows, columns, indexing="ij"), order=1)
-    )
+
+    def ground(rows: IntArray, columns: IntArray) -> FloatArray:
+        at = [
+            np.interp(index + 0.5, middle, np.arange(len(middle)))
+            for index, middle in zip((rows, columns), centres, strict=True)
+        ]
+        return np.asarray(ndimage.map_coordinates(best, np.broadcast_arrays(*at), order=1))
+
+    return ground

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
 from shapespline.tracing.edges import drawn_shares, level_shares
 
 if TYPE_CHECKING:
+    from shapespline.monitor import Say
     from shapespline.tracing.crossings import Crossings
     from shapespline.tracing.field import Field
     from shapespline.typing import BoolArray, FloatArray
@@ -37,12 +39,15 @@ class Line(NamedTuple):
     accuracy: float
 
 
-def drawn_lines(field: Field, found: Crossings, places: FloatArray, kept: BoolArray) -> list[Line]:
+def drawn_lines(
+    field: Field, found: Crossings, places: FloatArray, kept: BoolArray, say: Say = silent
+) -> list[Line]:
     """Outlines as they were drawn."""
-    height, width = field.values.shape
+    height, width = field.shape
     loops = [found.loops[index] for index in np.flatnonzero(kept)]
     used = np.concatenate(loops)
     part = found.chosen(used)
+    say(f"placing {len(used)} points of edges")
     edges = drawn_shares(field, part, level_shares(field, part))
     places_drawn = part.places(height, edges.shares)
     at_rim = part.at_rim(height, width)
@@ -69,6 +74,7 @@ def drawn_lines(field: Field, found: Crossings, places: FloatArray, kept: BoolAr
         level_lines.append(level_line)
         accuracies.append(accuracy)
     drawn = [accuracy == DRAWN_ACCURACY for accuracy in accuracies]
+    say(f"looking for the corners of {len(outlines)} outlines")
     outlines = sharpened(outlines, level_lines, drawn, field)
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
 

@@ -22,7 +22,7 @@ LARGEST_IMAGE = 80_000_000
 
 
 def load(path: Path) -> NDArray[Any]:
-    """Pixels of a picture as :func:`shapespline.tracing.trace_image` takes them, turned upright.
+    """Pixels of a picture as :func:`shapespline.trace` takes them, turned upright.
 
     Of several pages the first. Palettes and other colour models become RGB; 16-bit grey stays.
 

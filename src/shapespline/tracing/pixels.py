@@ -7,11 +7,17 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, cast
 import numpy as np
 
 from shapespline.errors import InvalidInputError
+from shapespline.tracing.layer import Layer, strips
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from shapespline.typing import ArrayLike, FloatArray
+
+    # What is made of pixels, whichever they are.
+    Work: TypeAlias = Callable[[NDArray[Any]], NDArray[Any]]
 
 Channel: TypeAlias = Literal["auto", "grey", "red", "green", "blue", "alpha", "difference"]
 
@@ -31,9 +37,9 @@ ONE_COLOUR = 0.02
 
 
 class PixelValues(NamedTuple):
-    """One value per pixel, shape (h, w), and whether it is the distance from the ground."""
+    """One value per pixel, and whether it is the distance from the ground."""
 
-    values: NDArray[Any]
+    values: Layer
     is_difference: bool
 
 
@@ -73,7 +79,7 @@ def validated_pixels(image: ArrayLike) -> NDArray[Any]:
     return pixels[:, :, 0] if channels == 1 and pixels.ndim == 3 else pixels
 
 
-def colour_distance(pixels: NDArray[Any], color: str) -> FloatArray:
+def colour_distance(pixels: NDArray[Any], color: str) -> Layer:
     """Root mean square difference of each pixel from a colour, in the unit of the image.
 
     Parameters
@@ -93,16 +99,20 @@ def colour_distance(pixels: NDArray[Any], color: str) -> FloatArray:
     --------
     >>> image = np.zeros((1, 2, 3), dtype=np.uint8)
     >>> image[0, 1] = (255, 0, 0)
-    >>> colour_distance(image, "red").round().tolist(), colour_distance(image, "@0,0").tolist()
-    ([[147.0, 0.0]], [[0.0, 147.22431864335456]])
+    >>> colour_distance(image, "red")[:].round().tolist()
+    [[147.0, 0.0]]
+    >>> colour_distance(image, "@0,0")[:].tolist()
+    [[0.0, 147.22431864335456]]
     """
-    if pixels.ndim == 3 and pixels.shape[2] in (2, 4):
-        pixels = on_ground(pixels)
-    if pixels.ndim == 2:
-        pixels = np.repeat(pixels[:, :, None], 3, axis=2)
+    layers = _layers_of(pixels)
     wanted = _colour(color, pixels)
-    squares = ((pixels - wanted).astype(np.float64) ** 2).sum(axis=2)
-    return cast("FloatArray", np.sqrt(squares / 3))
+
+    def distance(part: NDArray[Any]) -> FloatArray:
+        found = layers(part)
+        squares = sum((found[k % len(found)] - wanted[k]) ** 2 for k in range(3))
+        return cast("FloatArray", np.sqrt(squares / 3))
+
+    return Layer(pixels, distance)
 
 
 def _colour(color: str, pixels: NDArray[Any]) -> FloatArray:
@@ -122,7 +132,8 @@ def _colour(color: str, pixels: NDArray[Any]) -> FloatArray:
             raise InvalidInputError(
                 f"color names the pixel {column},{row}, but the picture has {width} x {height}"
             )
-        return pixels[row, column].astype(np.float64)
+        own = [layer[0, 0] for layer in _layers_of(pixels)(pixels[row : row + 1, [column]])]
+        return np.resize(np.array(own, dtype=np.float64), 3)
     from PIL import ImageColor
 
     try:
@@ -140,7 +151,7 @@ def pixel_values(pixels: NDArray[Any], channel: Channel, *, lightness: bool) -> 
     pixels : ndarray, shape (h, w) or (h, w, 2 to 4)
         As :func:`validated_pixels` returns them.
     channel : Channel
-        As in :func:`shapespline.trace.trace_image`.
+        As in :func:`shapespline.trace`.
     lightness : bool
         Whether "auto" has to be lightness.
 
@@ -149,22 +160,22 @@ def pixel_values(pixels: NDArray[Any], channel: Channel, *, lightness: bool) -> 
     InvalidInputError
         If the picture does not have the channel.
     """
-    has_alpha = pixels.ndim == 3 and pixels.shape[2] in (2, 4)
+    has_alpha = _has_alpha(pixels)
     if channel == "alpha" and not has_alpha:
         raise InvalidInputError("channel 'alpha' needs a picture with transparency; leave it out")
     free = channel == "auto" and not lightness
     if channel == "alpha" or (free and has_alpha and _is_one_colour(pixels)):
-        return PixelValues(pixels[:, :, -1], is_difference=False)
-    if has_alpha:
-        pixels = on_ground(pixels)
+        return PixelValues(Layer(pixels, lambda part: part[..., -1]), is_difference=False)
+    laid = _laid(pixels)
+    is_grey = pixels.ndim == 2 or pixels.shape[2] == 2
     if channel in ("red", "green", "blue"):
-        if pixels.ndim == 2:
+        if is_grey:
             raise InvalidInputError(f"channel {channel!r} needs a colour picture; use 'grey'")
         index = ("red", "green", "blue").index(channel)
-        return PixelValues(pixels[:, :, index], is_difference=False)
-    if channel == "difference" or (free and _is_coloured(pixels)):
+        return PixelValues(Layer(pixels, lambda part: laid(part)[..., index]), is_difference=False)
+    if channel == "difference" or (free and not is_grey and _is_coloured(pixels)):
         return PixelValues(_difference(pixels), is_difference=True)
-    return PixelValues(_grey(pixels), is_difference=False)
+    return PixelValues(Layer(pixels, laid) if is_grey else _grey(pixels), is_difference=False)
 
 
 def full_scale(pixels: NDArray[Any]) -> float:
@@ -172,70 +183,118 @@ def full_scale(pixels: NDArray[Any]) -> float:
     return float(np.iinfo(pixels.dtype).max) if pixels.dtype.kind == "u" else 1.0
 
 
+def _has_alpha(pixels: NDArray[Any]) -> bool:
+    return pixels.ndim == 3 and pixels.shape[2] in (2, 4)
+
+
 def _is_one_colour(pixels: NDArray[Any]) -> bool:
     """Whether all pixels that are more than half opaque look alike, some pixel being clear."""
-    alpha, full = pixels[:, :, -1], full_scale(pixels)
-    visible = pixels[alpha > 0.5 * full][:, :-1]
-    if len(visible) == 0 or len(visible) == alpha.size:
+    full = full_scale(pixels)
+    n_visible, ends = 0, []
+    for rows in strips(pixels.shape):
+        visible = pixels[rows][pixels[rows][:, :, -1] > 0.5 * full][:, :-1]
+        n_visible += len(visible)
+        if len(visible):
+            ends += [visible.min(axis=0), visible.max(axis=0)]
+    if n_visible in (0, pixels.shape[0] * pixels.shape[1]):
         return False
-    spread = visible.max(axis=0).astype(np.float64) - visible.min(axis=0)
-    return bool(spread.max() <= ONE_COLOUR * full)
+    return bool(np.ptp(np.array(ends, dtype=np.float64), axis=0).max() <= ONE_COLOUR * full)
 
 
 def on_ground(pixels: NDArray[Any]) -> NDArray[Any]:
     """Pixels laid on white, or on black if what is visible is mostly light; without alpha."""
+    return _laid(pixels)(pixels)
+
+
+def _laid(pixels: NDArray[Any]) -> Work:
+    """What lays pixels of a picture on white or black; grey ones have no axis of channels then."""
+    if not _has_alpha(pixels):
+        return lambda part: part
     full = full_scale(pixels)
-    alpha = pixels[:, :, -1]
-    colours = pixels[:, :, :-1]
-    if (alpha == full).all():
-        flat = colours
-    else:
-        cover = (alpha / full)[:, :, None]
-        mean = (colours * cover).sum() / max(float(cover.sum()) * colours.shape[2], 1e-300)
-        ground = 0.0 if mean > 0.5 * full else full
-        flat = ground + (colours - ground) * cover
-        if pixels.dtype.kind == "u":
-            flat = np.rint(flat).astype(pixels.dtype)
-    return flat[:, :, 0] if flat.shape[2] == 1 else flat
+    ground = _ground(pixels, full)
+
+    def laid(part: NDArray[Any]) -> NDArray[Any]:
+        flat = part[..., :-1]
+        if ground is not None:
+            flat = ground + (flat - ground) * (part[..., -1:] / full)
+            if pixels.dtype.kind == "u":
+                flat = np.rint(flat).astype(pixels.dtype)
+        return flat[..., 0] if pixels.shape[2] == 2 else flat
+
+    return laid
+
+
+def _ground(pixels: NDArray[Any], full: float) -> float | None:
+    """White, black if what is visible is mostly light, or None where all is opaque."""
+    opaque, ink, cover = True, 0.0, 0.0
+    for rows in strips(pixels.shape):
+        alpha = pixels[rows][:, :, -1]
+        opaque = opaque and bool((alpha == full).all())
+        share = (alpha / full)[:, :, None]
+        ink += float((pixels[rows][:, :, :-1] * share).sum())
+        cover += float(share.sum()) * (pixels.shape[2] - 1)
+    if opaque:
+        return None
+    return 0.0 if ink > 0.5 * full * max(cover, 1e-300) else full
+
+
+def _layers_of(pixels: NDArray[Any]) -> Callable[[NDArray[Any]], list[NDArray[Any]]]:
+    """What gives the channels of pixels laid on a ground: one, or red, green and blue."""
+    laid = _laid(pixels)
+    if pixels.ndim == 2 or pixels.shape[2] == 2:
+        return lambda part: [laid(part)]
+    return lambda part: list(np.moveaxis(laid(part), -1, 0))
 
 
 def _is_coloured(pixels: NDArray[Any]) -> bool:
     """Whether enough pixels differ enough between their channels."""
-    if pixels.ndim == 2:
-        return False
-    layers = [pixels[:, :, k] for k in range(pixels.shape[2])]
-    spread = np.maximum.reduce(layers) - np.minimum.reduce(layers)
-    return bool((spread > COLOURED_SPREAD * full_scale(pixels)).mean() > COLOURED_PIXELS)
+    count, layers_of = 0, _layers_of(pixels)
+    for rows in strips(pixels.shape):
+        layers = layers_of(pixels[rows])
+        spread = np.maximum.reduce(layers) - np.minimum.reduce(layers)
+        count += int((spread > COLOURED_SPREAD * full_scale(pixels)).sum())
+    return count > COLOURED_PIXELS * pixels.shape[0] * pixels.shape[1]
 
 
-def _grey(pixels: NDArray[Any]) -> NDArray[Any]:
+def _grey(pixels: NDArray[Any]) -> Layer:
     """Lightness of each pixel, exact if its channels are equal."""
-    if pixels.ndim == 2:
-        return pixels
-    red, green, blue = (pixels[:, :, k] for k in range(3))
-    if (red == green).all() and (green == blue).all():
-        return red
-    return LUMA[0] * red + LUMA[1] * green + LUMA[2] * blue
+    equal, layers_of = True, _layers_of(pixels)
+    for rows in strips(pixels.shape):
+        red, green, blue = layers_of(pixels[rows])
+        equal = equal and bool((red == green).all() and (green == blue).all())
+    if equal:
+        return Layer(pixels, lambda part: layers_of(part)[0])
+
+    def luma(part: NDArray[Any]) -> NDArray[Any]:
+        red, green, blue = layers_of(part)
+        return np.asarray(LUMA[0] * red + LUMA[1] * green + LUMA[2] * blue)
+
+    return Layer(pixels, luma)
 
 
-def _difference(pixels: NDArray[Any]) -> FloatArray:
+def _difference(pixels: NDArray[Any]) -> Layer:
     """Root mean square difference from the rim's median colour, in the unit of the image.
 
     A norm of the difference keeps sub-pixel positions: where object and ground mix linearly, it
     is linear in the mixture.
     """
-    layers = [pixels] if pixels.ndim == 2 else [pixels[:, :, k] for k in range(pixels.shape[2])]
-    squares = np.zeros(pixels.shape[:2])
-    for layer in layers:
-        squares += (layer - float(np.median(rim(layer)))) ** 2
-    return cast("FloatArray", np.sqrt(squares / len(layers)))
+    layers_of = _layers_of(pixels)
+    ground = [float(np.median(layer)) for layer in layers_of(rim(pixels))]
+
+    def difference(part: NDArray[Any]) -> FloatArray:
+        squares = sum((layer - one) ** 2 for layer, one in zip(layers_of(part), ground, strict=True))
+        return cast("FloatArray", np.sqrt(squares / len(ground)))
+
+    return Layer(pixels, difference)
 
 
-def rim(values: NDArray[Any]) -> NDArray[Any]:
-    """Values of the picture's rim, as one row."""
-    width = max(1, round(RIM * min(values.shape)))
-    if 2 * width >= min(values.shape):
-        return values.ravel()
-    middle = values[width:-width]
-    strips = values[:width], values[-width:], middle[:, :width], middle[:, -width:]
-    return np.concatenate([strip.ravel() for strip in strips])
+def rim(values: NDArray[Any] | Layer) -> NDArray[Any]:
+    """Pixels of the picture's rim, one after the other."""
+    height, width = values.shape[:2]
+    wide = max(1, round(RIM * min(height, width)))
+    if 2 * wide >= min(height, width):
+        sides = [values[:]]
+    else:
+        inner = slice(wide, -wide)
+        sides = [values[:wide], values[-wide:], values[inner, :wide], values[inner, -wide:]]
+    return np.concatenate([part.reshape(-1, *part.shape[2:]) for part in sides])

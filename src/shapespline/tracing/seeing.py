@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from shapespline.errors import InvalidInputError, PictureWarning
+from shapespline.errors import InvalidInputError, PictureWarning, caller_level
+from shapespline.monitor import silent
 from shapespline.tracing.crossings import Crossings, crossings
 from shapespline.tracing.field import Field
+from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import halfway_to_other, noise_deviation, picture_level
 from shapespline.tracing.lighting import (
     ALONG_NOTHING,
@@ -27,7 +29,6 @@ from shapespline.tracing.pixels import (
     rim,
     validated_pixels,
 )
-from shapespline.tracing.threads import ink_and_threads
 from shapespline.validation import is_number
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from shapespline.monitor import Say
     from shapespline.typing import ArrayLike
 
 Polarity: TypeAlias = Literal["auto", "dark", "light"]
@@ -45,7 +47,7 @@ POLARITIES = ("auto", "dark", "light")
 
 @dataclass(frozen=True)
 class Seeing:
-    """How a picture is looked at; as in :func:`shapespline.tracing.trace_image`."""
+    """How a picture is looked at; as in :func:`shapespline.trace`."""
 
     level: float | None = None
     polarity: Polarity = "auto"
@@ -72,21 +74,22 @@ class Seeing:
         if self.level is not None and is_number(self.local):
             raise InvalidInputError("level is one for the whole picture: leave out local, or level")
 
-    def field(self, image: ArrayLike) -> tuple[Field, Crossings]:
+    def field(self, image: ArrayLike, say: Say = silent) -> tuple[Field, Crossings]:
         """The picture as ink and ground, and the border between them.
 
         A warning tells if the level was found to have to follow the light.
         """
         pixels = cropped(validated_pixels(image), self.crop)
+        say("looking for ink")
         values, light, differs = self._values(pixels)
         if is_number(self.local):
             field = cut_field(evenly_lit(values, light, float(self.local)), light)
-            return field, crossings(field, ink_and_threads(field))
+            return field, crossings(field, say)
         level = self.level
         if self.color is not None and level is None and not self.blur:
             level = halfway_to_other(values, full_scale(pixels))
         field = cut_field(values, light, level)
-        found = crossings(field, ink_and_threads(field))
+        found = crossings(field, say)
         if self.local == "off" or self.level is not None or differs:
             return field, found
         astray = part_along_nothing(field, found)
@@ -97,8 +100,9 @@ class Seeing:
         best, least = (field, found), min(BETTER * astray, ALONG_NOTHING)
         edges = BETTER * (1 - astray) * len(found.row)
         for ink in (light,) if told else (light, not light):
+            say("looking for the light on the ground")
             even = cut_field(evenly_lit(values, ink), ink)
-            found_even = crossings(even, ink_and_threads(even))
+            found_even = crossings(even, say)
             left = part_along_nothing(even, found_even)
             if left <= least and (1 - left) * len(found_even.row) >= edges:
                 best, least = (even, found_even), left
@@ -108,11 +112,11 @@ class Seeing:
             "the ground is unevenly lit, so the level follows it:"
             " --local off (local='off') cuts at one level",
             PictureWarning,
-            stacklevel=3,
+            stacklevel=caller_level(),
         )
         return best
 
-    def _values(self, pixels: NDArray[Any]) -> tuple[NDArray[Any], bool, bool]:
+    def _values(self, pixels: NDArray[Any]) -> tuple[Layer, bool, bool]:
         """One value for each pixel, whether ink is light, and whether it differs from a colour."""
         if self.color is not None:
             values, light, is_difference = colour_distance(pixels, self.color), False, True
@@ -127,11 +131,12 @@ class Seeing:
         if self.blur:
             from scipy.ndimage import gaussian_filter
 
-            values = gaussian_filter(values.astype(np.float64), self.blur, mode="nearest")
+            whole = values[:].astype(np.float64)
+            values = Layer(gaussian_filter(whole, self.blur, mode="nearest"))
         return values, light != self.invert, is_difference
 
 
-def cut_field(values: NDArray[Any], light: bool, level: float | None = None) -> Field:
+def cut_field(values: Layer, light: bool, level: float | None = None) -> Field:
     """Values cut where ink and ground part."""
     found = picture_level(values, level)
     contrast = found.light - found.dark

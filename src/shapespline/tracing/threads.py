@@ -25,14 +25,15 @@ WIDE, PALE, NECK = 0.9, 0.1, 0.55
 GROUND, DEEPER = 0.25, 0.5
 
 
-def ink_and_threads(field: Field) -> BoolArray:
-    """Which pixels are ink, threads of ink among them, none that a thread of ground crosses."""
-    ink = field.ink
+def ink_and_threads(field: Field, rows: slice) -> BoolArray:
+    """Which pixels of some rows are ink, threads of ink among them, none that a thread of ground crosses."""
+    ink = field.ink(rows)
     wide = LACKS * field.contrast
-    grey = (field.values >= field.cut - wide) & (field.values < field.cut + wide)
-    row, column = np.nonzero(grey)
+    values = field.values[rows]
+    row, column = np.nonzero((values >= field.cut - wide) & (values < field.cut + wide))
+    del values
     for part in np.array_split(np.arange(len(row)), len(row) // 200_000 + 1):
-        around = _around(field, row[part], column[part])
+        around = _around(field, rows.start + row[part], column[part])
         was = ink[row[part], column[part]]
         thread = np.where(was, _is_thread(1.0 - around), _is_thread(around))
         ink[row[part], column[part]] = was ^ thread

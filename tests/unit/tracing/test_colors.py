@@ -13,7 +13,7 @@ from tests.support.command_line import one_line
 
 import shapespline as ss
 from shapespline.errors import DegenerateContourError, InvalidInputError, PictureWarning
-from shapespline.tracing import trace_colors
+from shapespline.tracing import trace
 
 COLORS = {"#145aa0", "#dc1e28", "#ffdc00", "#1e8c3c", "#ffffff"}
 LARGER = 8
@@ -38,7 +38,7 @@ def signed_area(points):
 
 @pytest.fixture(scope="module")
 def shape():
-    return trace_colors(logo())
+    return trace(logo(), colors="auto")
 
 
 def test_flat_areas_keep_their_colours_and_edges_make_no_new_ones(shape):
@@ -94,7 +94,7 @@ def test_thin_letters_and_their_dots_stay():
     image = Image.new("RGB", (120 * n, 30 * n), "#ffeecc")
     face = ImageFont.truetype(path, 14 * n)
     ImageDraw.Draw(image).text((6 * n, 6 * n), "jäger 8", font=face, fill="#101060")
-    shape = trace_colors(np.asarray(image.resize((120, 30), Image.Resampling.BOX)))
+    shape = trace(np.asarray(image.resize((120, 30), Image.Resampling.BOX)), colors="auto")
     ink = [color for color in shape.colors if color and color != "#ffeecc"]
     assert len(set(ink)) == 1
     assert (
@@ -107,7 +107,7 @@ def test_small_areas_of_a_grainy_picture_go_to_their_neighbours():
     rng = np.random.default_rng(2)
     image = np.clip(logo() + rng.normal(0, 12, (140, 200, 3)), 0, 255).astype(np.uint8)
     with pytest.warns(PictureWarning, match=r"areas below .* --min-area 0"):
-        shape = trace_colors(image, 5)
+        shape = trace(image, colors=5)
     assert len(shape) < 40
     total = sum(signed_area(contour.points) for contour in shape)
     assert total == pytest.approx(200 * 140, abs=1e-9)
@@ -125,12 +125,12 @@ def test_small_areas_of_a_grainy_picture_go_to_their_neighbours():
 )
 def test_numbers_of_colours_that_cannot_be(colors, complaint):
     with pytest.raises(InvalidInputError, match=complaint):
-        trace_colors(logo(), colors)
+        trace(logo(), colors=colors)
 
 
 def test_one_colour_has_no_border():
     with pytest.raises(DegenerateContourError, match="one colour only"):
-        trace_colors(np.full((9, 9, 3), 77, dtype=np.uint8))
+        trace(np.full((9, 9, 3), 77, dtype=np.uint8), colors="auto")
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from tests.support.rendering import SAMPLES, coverage, dark, polygon, strip
 
 import shapespline as ss
-from shapespline.tracing import trace_image
+from shapespline.tracing import trace
 
 # Rounding to 8 bits moves each of some five pixels across an edge by 1/2 of 255, and counting
 # samples moves the edge by half of their distance at most.
@@ -22,7 +22,7 @@ def test_a_straight_edge_is_exact_where_its_level_line_is_not(angle):
     image = dark(
         coverage(lambda x, y: (x - 30.3) * normal[0] + (y - 29.9) * normal[1] <= 0, 60, 60)
     )
-    contour = trace_image(image, polarity="dark").longest
+    contour = trace(image, polarity="dark").longest
     inner = np.abs(contour.points - 30).max(axis=1) < 22
     off = (contour.points[inner] - middle) @ normal
     assert np.abs(off).max() <= ROUNDING
@@ -40,7 +40,7 @@ def test_a_thin_stroke_is_whole_and_as_wide_as_it_was_drawn(width, angle, shift)
     image = dark(coverage(strip(angle, width, middle), 60, 60))
     image = np.pad(image, ((0, 9), (0, 0)), constant_values=255)
     image[63:67, 5:55] = 0  # what ink is where it covers a pixel
-    contour = trace_image(image, polarity="dark").longest
+    contour = trace(image, polarity="dark").longest
     middle[1] += 9
     normal = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
     inner = contour.points[np.abs(contour.points - (30, 39)).max(axis=1) < 22]
@@ -52,7 +52,7 @@ def test_a_thin_stroke_is_whole_and_as_wide_as_it_was_drawn(width, angle, shift)
 
 def test_corners_are_put_back():
     corners = np.array([(12.3, 10.7), (50.1, 15.2), (46.4, 48.8), (20.2, 40.6)])
-    (contour,) = trace_image(dark(coverage(polygon(corners), 60, 60)))
+    (contour,) = trace(dark(coverage(polygon(corners), 60, 60)))
     distance = np.hypot(*(contour.points[:, None] - corners).transpose(2, 0, 1)).min(axis=0)
     assert distance.max() <= 0.06
     cut = np.hypot(*(contour.level_line[:, None] - corners).transpose(2, 0, 1)).min(axis=0)
@@ -67,14 +67,14 @@ def test_the_end_of_a_stroke_of_two_pixels_stays(length, half):
     image[4 : 4 + length, 3 + half : 5 + half] = 0
     image[4 + length, 3 + half : 5 + half] = 48
     image[3:5, [3, 4 + 2 * half]] = 48
-    (contour,) = trace_image(image)
+    (contour,) = trace(image)
     # Of the last row 48 of 255 is ground.
     assert contour.points[:, 1].min() == pytest.approx(3 + 48 / 255, abs=0.02)
 
 
 def test_a_fit_tells_its_distance_to_the_level_line():
     corners = np.array([(12.3, 10.7), (50.1, 15.2), (46.4, 48.8), (20.2, 40.6)])
-    (contour,) = trace_image(dark(coverage(polygon(corners), 60, 60)))
+    (contour,) = trace(dark(coverage(polygon(corners), 60, 60)))
     fit = ss.fit_curve(contour, tolerance=0.05)
     assert fit.hausdorff_distance <= 0.05
     line = ss.Contour(contour.level_line, closed=True).resampled(8000).points
@@ -91,7 +91,7 @@ def test_a_rounding_of_two_pixels_stays_round():
         dx, dy = np.maximum(np.abs(x - 30) - 13, 0), np.maximum(np.abs(y - 30) - 13, 0)
         return np.hypot(dx, dy) <= 2
 
-    (contour,) = trace_image(dark(coverage(inside, 60, 60)))
+    (contour,) = trace(dark(coverage(inside, 60, 60)))
     # The corner of the square around it is (sqrt(2) - 1) 2 = 0.83 outside.
     beyond = np.abs(contour.points - 30) - 13
     rounded = (beyond > 0).all(axis=1)
@@ -101,7 +101,7 @@ def test_a_rounding_of_two_pixels_stays_round():
 def test_a_rectangle_on_the_pixel_grid_is_exact():
     image = np.full((30, 40), 255, dtype=np.uint8)
     image[5:20, 10:30] = 0
-    (contour,) = trace_image(image)
+    (contour,) = trace(image)
     assert contour.accuracy == 0.02
     corners = {(10.0, 10.0), (30.0, 10.0), (30.0, 25.0), (10.0, 25.0)}
     assert corners <= {tuple(point) for point in contour.points.tolist()}
@@ -114,6 +114,6 @@ def test_in_noise_the_level_line_stays(noise):
     rng = np.random.default_rng(3)
     image = 205 - 150 * coverage(lambda x, y: np.hypot(x - 30, y - 30) <= 18, 60, 60)
     image = np.rint(np.clip(image + rng.normal(0, noise, image.shape), 0, 255)).astype(np.uint8)
-    contour = trace_image(image, min_area=20, local="off").longest
+    contour = trace(image, min_area=20, local="off").longest
     assert contour.accuracy == 0.07
     assert np.array_equal(contour.points, contour.level_line)

@@ -10,7 +10,8 @@ from matplotlib.path import Path as MplPath
 
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.tracing.level import otsu_split
-from shapespline.tracing.outlines import nesting, trace_image
+from shapespline.tracing import trace
+from shapespline.tracing.outlines import nesting
 from shapespline.values.view_box import ViewBox
 
 LEAST_SPACING = 1e-3  # pixels; closer points are merged
@@ -64,7 +65,7 @@ def test_a_disc_is_traced_within_the_error_of_linear_interpolation(radius, centr
     image = disc(centre, radius, ramp, 80)
     if dark:
         image = 255 - image
-    shape = trace_image(image, level=127.5)
+    shape = trace(image, level=127.5)
     assert len(shape) == 1
     points = shape.longest.level_line
     off = np.abs(np.hypot(points[:, 0] - centre[0], points[:, 1] - centre[1]) - radius)
@@ -76,8 +77,8 @@ def test_a_disc_is_traced_within_the_error_of_linear_interpolation(radius, centr
 
 
 def test_otsu_finds_the_middle_of_an_edge_by_itself():
-    given_level = trace_image(disc((40, 40), 20, 3, 80), level=127.5)
-    found = trace_image(disc((40, 40), 20, 3, 80))
+    given_level = trace(disc((40, 40), 20, 3, 80), level=127.5)
+    found = trace(disc((40, 40), 20, 3, 80))
     # Both classes are even regions of 0 and 255 with a thin seam: their medians are exact.
     assert np.array_equal(found.longest.points, given_level.longest.points)
 
@@ -86,7 +87,7 @@ def test_an_axis_aligned_edge_by_hand():
     # Columns 0..3 white, column 4 covered by 60 %, the rest black: true edge at x = 4.6.
     image = np.zeros((8, 10), dtype=np.uint8)
     image[:, :4], image[:, 4] = 255, 153
-    contour = trace_image(image, level=127.5, polarity="light").longest
+    contour = trace(image, level=127.5, polarity="light").longest
     # Column 4's centre (4.5) has 153, column 5's has 0: 127.5 lies at 4.5 + 25.5 / 153.
     assert contour.level_line[:, 0].max() == pytest.approx(4.5 + 25.5 / 153, abs=1e-12)
     points = contour.points
@@ -99,7 +100,7 @@ def test_an_axis_aligned_edge_by_hand():
 def test_a_shape_that_fills_the_picture_but_for_a_hole():
     image = np.full((20, 30), 10, dtype=np.uint8)
     image[5:9, 10:20] = 200
-    shape = trace_image(image, level=100, polarity="dark")
+    shape = trace(image, level=100, polarity="dark")
     assert shape.parents == (-1, 0)
     # Edges on the lines between pixels, and their corners, are exact.
     assert signed_area(shape.contours[0].points) == 20 * 30
@@ -116,7 +117,7 @@ def test_nesting_and_orientation_by_hand():
     image[20:40, 20:40] = 255
     image[25:35, 25:35] = 0
     image[20:40, 60:75] = 255
-    shape = trace_image(image)
+    shape = trace(image)
     assert shape.parents == (-1, 0, 1, -1, 2)
     assert [shape.is_hole(k) for k in range(5)] == [False, True, False, False, True]
     assert [np.sign(signed_area(c.points)) for c in shape] == [1, -1, 1, 1, -1]
@@ -126,7 +127,7 @@ def test_nesting_and_orientation_by_hand():
 @given(st.integers(0, 10_000))
 @settings(max_examples=40)
 def test_nesting_agrees_with_an_independent_point_in_polygon(seed):
-    shape = trace_image(blobs(seed), min_area=0, local="off")
+    shape = trace(blobs(seed), min_area=0, local="off")
     paths = [MplPath(c.polyline, closed=True) for c in shape]
     areas = [abs(signed_area(c.points)) for c in shape]
     for k, contour in enumerate(shape):
@@ -147,7 +148,7 @@ def test_no_two_points_coincide_even_where_pixels_lie_on_the_level(seed, level):
     if not image.min() < level <= image.max():
         return
     for pixels in (image, image.astype(float)):  # DroppedPointsWarning would be an error
-        for contour in trace_image(pixels, level=level, min_area=0):
+        for contour in trace(pixels, level=level, min_area=0):
             assert np.hypot(*np.diff(contour.polyline, axis=0).T).min() > LEAST_SPACING
             assert contour.points.min() >= 0
             assert contour.points.max() <= 48
@@ -160,7 +161,7 @@ def test_turned_flipped_and_inverted_pictures_give_the_same_outlines(seed):
     image = blobs(seed)
 
     def found(image, polarity):
-        return summary(trace_image(image, level=127.5, polarity=polarity, min_area=0))
+        return summary(trace(image, level=127.5, polarity=polarity, min_area=0))
 
     expected = found(image, "light")
     for other in (np.rot90(image), image[::-1], image[:, ::-1]):
@@ -170,11 +171,11 @@ def test_turned_flipped_and_inverted_pictures_give_the_same_outlines(seed):
 
 def test_polarity_is_told_by_the_rim():
     image = disc((40, 40), 20, 3, 80)
-    light = trace_image(image)
-    dark = trace_image(255 - image)
+    light = trace(image)
+    dark = trace(255 - image)
     assert np.allclose(light.longest.points, dark.longest.points, atol=1e-9)
     # Told otherwise, the ground is the shape and the disc its hole.
-    ground = trace_image(image, polarity="dark")
+    ground = trace(image, polarity="dark")
     assert ground.parents == (-1, 0)
     assert ground.longest.points.min() == 0
 
@@ -201,18 +202,18 @@ def test_specks_are_dropped_and_counted_in_square_pixels():
     image[20:60, 20:60] = 255
     image[80:84, 80:84] = 255  # 15.5 square pixels, corners cut
     image[10, 10] = 255  # 0.5
-    assert len(trace_image(image, min_area=0)) == 3
-    assert len(trace_image(image, min_area=15.6)) == 1
+    assert len(trace(image, min_area=0)) == 3
+    assert len(trace(image, min_area=15.6)) == 1
     with pytest.raises(DegenerateContourError, match=r"encloses 2000 .* the largest 1\.6e\+03"):
-        trace_image(image, min_area=2000)
+        trace(image, min_area=2000)
 
 
 def test_the_longest_outline_alone():
     image = np.zeros((60, 60), dtype=np.uint8)
     image[5:55, 5:55] = 255
     image[10:50:4, 10:50] = 0  # ten slits, each longer round than ...
-    assert len(trace_image(image)) == 11
-    shape = trace_image(image, contours="longest")
+    assert len(trace(image)) == 11
+    shape = trace(image, contours="longest")
     assert len(shape) == 1
     assert shape.longest.length == pytest.approx(4 * 50, abs=4)  # ... but shorter than the square
     assert signed_area(shape.longest.points) > 0
@@ -230,7 +231,7 @@ def painted(foreground, background, cover, dtype=np.uint8):
     return np.rint(mixed).astype(dtype)
 
 
-EXPECTED = trace_image(np.rint(255 * glyph()).astype(np.uint8), level=127.5)
+EXPECTED = trace(np.rint(255 * glyph()).astype(np.uint8), level=127.5)
 
 
 @pytest.mark.parametrize(
@@ -244,7 +245,7 @@ EXPECTED = trace_image(np.rint(255 * glyph()).astype(np.uint8), level=127.5)
     ],
 )
 def test_what_differs_from_the_rim_is_found_in_any_colour(foreground, background):
-    shape = trace_image(painted(foreground, background, glyph()))
+    shape = trace(painted(foreground, background, glyph()))
     # Rounding of the grey seam: half a unit of at least 90, over one pixel.
     assert np.allclose(shape.longest.points, EXPECTED.longest.points, atol=1 / 90)
 
@@ -255,9 +256,9 @@ def test_one_colour_on_a_transparent_ground_is_its_alpha(colour, hidden):
     cover = glyph()
     image = painted(colour, (hidden,) * 3, np.ceil(cover))
     image = np.dstack([image, np.rint(255 * cover).astype(np.uint8)])
-    assert np.array_equal(trace_image(image).longest.points, EXPECTED.longest.points)
+    assert np.array_equal(trace(image).longest.points, EXPECTED.longest.points)
     assert np.array_equal(
-        trace_image(image, channel="alpha").longest.points, EXPECTED.longest.points
+        trace(image, channel="alpha").longest.points, EXPECTED.longest.points
     )
 
 
@@ -267,7 +268,7 @@ def test_several_colours_on_a_transparent_ground_are_laid_on_what_shows_them(col
     image = painted(colours[0], colours[0], cover)
     image[:20] = colours[1]
     image = np.dstack([image, np.rint(255 * cover).astype(np.uint8)])
-    points = trace_image(image).longest.points
+    points = trace(image).longest.points
     assert np.abs(points.min(axis=0) - EXPECTED.longest.points.min(axis=0)).max() < 0.5
     assert np.abs(points.max(axis=0) - EXPECTED.longest.points.max(axis=0)).max() < 0.5
 
@@ -275,10 +276,10 @@ def test_several_colours_on_a_transparent_ground_are_laid_on_what_shows_them(col
 def test_channels():
     image = painted((255, 100, 0), (0, 100, 255), glyph())
     for channel in ("red", "blue", "grey"):
-        points = trace_image(image, channel=channel).longest.points
+        points = trace(image, channel=channel).longest.points
         assert np.allclose(points, EXPECTED.longest.points, atol=0.02)
     with pytest.raises(DegenerateContourError, match="every pixel has the value 100"):
-        trace_image(image, channel="green")
+        trace(image, channel="green")
 
 
 @pytest.mark.parametrize(
@@ -286,13 +287,13 @@ def test_channels():
 )
 def test_the_unit_of_the_picture_does_not_matter(dtype, scale):
     image = (np.rint(255 * glyph()) * scale).astype(dtype)
-    assert np.allclose(trace_image(image).longest.points, EXPECTED.longest.points, atol=0.01)
-    found = trace_image(image, level=127.5 * scale)
+    assert np.allclose(trace(image).longest.points, EXPECTED.longest.points, atol=0.01)
+    found = trace(image, level=127.5 * scale)
     assert np.allclose(found.longest.points, EXPECTED.longest.points, atol=0.01)
 
 
 def test_a_boolean_mask_has_its_edges_half_way():
-    points = trace_image(glyph() > 0.5).longest.points
+    points = trace(glyph() > 0.5).longest.points
     assert points.min(axis=0).tolist() == [15, 10]
     assert points.max(axis=0).tolist() == [25, 30]
 
@@ -300,23 +301,23 @@ def test_a_boolean_mask_has_its_edges_half_way():
 @pytest.mark.parametrize("value", [0, 255])
 def test_a_constant_picture_has_no_outline(value):
     with pytest.raises(DegenerateContourError, match=f"every pixel has the value {value}"):
-        trace_image(np.full((9, 9), value, dtype=np.uint8))
+        trace(np.full((9, 9), value, dtype=np.uint8))
 
 
 @pytest.mark.parametrize("level", [0, 10, 201, 300, -5])
 def test_a_level_outside_the_values_has_no_outline(level):
     image = (10 + 190 * (glyph() > 0.5)).astype(np.uint8)
     with pytest.raises(DegenerateContourError, match="the pixels range from 10 to 200"):
-        trace_image(image, level=level)
-    assert len(trace_image(image, level=200)) == len(trace_image(image, level=11)) == 1
+        trace(image, level=level)
+    assert len(trace(image, level=200)) == len(trace(image, level=11)) == 1
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.float64])
 def test_pixels_at_the_level_are_light(dtype):
     image = (10 + 190 * (glyph() > 0.5)).astype(dtype)
-    light = trace_image(image, level=200, polarity="light")
+    light = trace(image, level=200, polarity="light")
     assert light.longest.points.mean(axis=0) == pytest.approx([20, 20])
-    dark = trace_image(image, level=200, polarity="dark")
+    dark = trace(image, level=200, polarity="dark")
     assert dark.parents == (-1, 0)
     hole = np.round(dark.contours[1].points, 9), np.round(light.longest.points, 9)
     assert sorted(map(tuple, hole[0])) == sorted(map(tuple, hole[1]))
@@ -342,7 +343,7 @@ def test_pixels_at_the_level_are_light(dtype):
 )
 def test_bad_input(image, options, complaint):
     with pytest.raises(InvalidInputError, match=complaint):
-        trace_image(image, **options)
+        trace(image, **options)
 
 
 def test_nesting_orients_and_sorts():
@@ -373,7 +374,7 @@ def blots():
     ],
 )
 def test_the_shape_of_a_colour(color, box):
-    (contour,) = trace_image(blots(), color=color)
+    (contour,) = trace(blots(), color=color)
     # The level between two colours lies somewhere in the one pixel between their centres.
     assert np.abs(contour.points.min(axis=0) - box[:2]).max() <= 0.5
     assert np.abs(contour.points.max(axis=0) - box[2:]).max() <= 0.5
@@ -382,12 +383,12 @@ def test_the_shape_of_a_colour(color, box):
 @pytest.mark.parametrize("color", ["reddish", "@1", "@90,0", "@-1,0", 7])
 def test_colours_that_are_none(color):
     with pytest.raises(InvalidInputError, match="color"):
-        trace_image(blots(), color=color)
+        trace(blots(), color=color)
 
 
 def test_one_way_to_see_ink():
     with pytest.raises(InvalidInputError, match="color excludes channel and polarity"):
-        trace_image(blots(), color="red", channel="green")
+        trace(blots(), color="red", channel="green")
 
 
 def test_accuracy_tells_one_bit_from_anti_aliased():
@@ -395,7 +396,7 @@ def test_accuracy_tells_one_bit_from_anti_aliased():
     ground = np.hypot(x - 40, y - 40) > 25
     soft = np.rint(255 * ground.reshape(80, 16, 80, 16).mean(axis=(1, 3))).astype(np.uint8)
     for image, accuracy in ((soft, 0.02), (255 * (soft > 127), 0.25)):
-        (contour,) = trace_image(image)
+        (contour,) = trace(image)
         assert contour.accuracy == accuracy
         error = np.abs(np.hypot(*(contour.points - 40).T) - 25)
         assert np.sqrt((error**2).mean()) <= accuracy

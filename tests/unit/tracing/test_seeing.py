@@ -7,7 +7,7 @@ import pytest
 from tests.support.rendering import word
 
 from shapespline.errors import InvalidInputError, PictureWarning
-from shapespline.tracing import trace_image
+from shapespline.tracing import trace
 
 
 def lit(light, text="No. 9 gä", noise=1.0):
@@ -36,22 +36,22 @@ def counted(shape):
 @pytest.mark.parametrize("light", LIGHTS.values(), ids=LIGHTS.keys())
 def test_uneven_light_is_found_and_told(light):
     expected = (9, 4)  # N, o, dot, 9, g, a, its two dots and the bar; counters of o, 9, g and a
-    assert counted(trace_image(lit(lambda x, y: 1.0))) == expected
+    assert counted(trace(lit(lambda x, y: 1.0))) == expected
     with pytest.warns(PictureWarning, match="unevenly lit"):
-        shape = trace_image(lit(light))
+        shape = trace(lit(light))
     assert counted(shape) == expected
-    assert counted(trace_image(lit(light), local="off", min_area=10)) != expected
+    assert counted(trace(lit(light), local="off", min_area=10)) != expected
 
 
 def test_a_window_does_the_same_where_it_always_shows_ground():
     image = lit(LIGHTS["from the left"], noise=0.0)
-    assert counted(trace_image(image, polarity="dark", local=80, min_area=6)) == (9, 4)
+    assert counted(trace(image, polarity="dark", local=80, min_area=6)) == (9, 4)
 
 
 def test_light_on_dark_and_dark_on_light_in_one_picture():
     letters = word("gä 8", 40, margin=10)
     image = np.vstack([letters, 255 - letters])
-    shape = trace_image(image, polarity="dark")
+    shape = trace(image, polarity="dark")
     height = letters.shape[0]
     depth = [shape.is_hole(index) for index in range(len(shape))]
     upper = [contour.points[:, 1].min() >= height - 0.5 for contour in shape]
@@ -62,18 +62,18 @@ def test_light_on_dark_and_dark_on_light_in_one_picture():
 
 def test_inverted_the_ground_is_the_shape():
     image = word("o", 30)
-    plain, inverted = trace_image(image), trace_image(image, invert=True)
+    plain, inverted = trace(image), trace(image, invert=True)
     assert counted(plain) == (1, 1)
     assert counted(inverted) == (2, 1)
 
 
 def test_a_crop_is_a_picture_of_its_own():
     image = word("ab", 30)
-    part = trace_image(image, crop=(2, 3, 20, 30), min_area=0)
-    cut = trace_image(image[3:33, 2:22], min_area=0)
+    part = trace(image, crop=(2, 3, 20, 30), min_area=0)
+    cut = trace(image[3:33, 2:22], min_area=0)
     assert [c.points.tolist() for c in part] == [c.points.tolist() for c in cut]
     assert part.frame == (0, 0, 20, 30)
-    text = trace_image(image, crop="2,3,20,30", min_area=0)
+    text = trace(image, crop="2,3,20,30", min_area=0)
     assert [c.points.tolist() for c in text] == [c.points.tolist() for c in cut]
 
 
@@ -82,7 +82,7 @@ def test_a_blur_takes_a_screen_away():
     y, x = np.mgrid[:120, :120]
     disc = np.hypot(x - 60, y - 60) < 35
     image = np.where((x + y) % 4 < np.where(disc, 3, 1), 0, 255).astype(np.uint8)
-    assert counted(trace_image(image, blur=3.0)) == (1, 0)
+    assert counted(trace(image, blur=3.0)) == (1, 0)
 
 
 @pytest.mark.parametrize(
@@ -100,7 +100,7 @@ def test_a_blur_takes_a_screen_away():
 )
 def test_options_that_cannot_be(options, complaint):
     with pytest.raises(InvalidInputError, match=complaint):
-        trace_image(word("a", 20), **options)
+        trace(word("a", 20), **options)
 
 
 def test_a_colour_is_not_found_in_the_edges_of_others():
@@ -108,7 +108,7 @@ def test_a_colour_is_not_found_in_the_edges_of_others():
     image = np.repeat(letters[:, :, None], 3, axis=2)
     image[:9, :9] = 255
     image[2:8, 2:8] = 200, 30, 30
-    (contour,) = trace_image(image, color="#c81e1e")
+    (contour,) = trace(image, color="#c81e1e")
     height = letters.shape[0]
     assert contour.points.min(axis=0) == pytest.approx([2, height - 8], abs=0.05)
     assert contour.points.max(axis=0) == pytest.approx([8, height - 2], abs=0.05)
