@@ -19,6 +19,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+
 from benchmarks.small_letters import FONTS, WORDS, drawn
 
 TRACER = """

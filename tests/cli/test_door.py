@@ -279,6 +279,7 @@ def test_what_is_going_on_names_the_curve(shapespline, desk, monkeypatch):
     n = len(ss.read("logo.png"))
     curves = [sentence.partition(",")[0] for sentence in said if sentence.startswith("curve")]
     assert curves == [f"curve {index + 1} of {n}" for index in range(n)]
+    assert f"looking for the corners of {n} outlines" in said
 
 
 def test_an_order_that_is_in_doubt_is_said(shapespline, desk):

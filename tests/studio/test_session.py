@@ -2,12 +2,15 @@
 
 import io
 import queue
+import threading
 import time
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import shapespline as ss
+from shapespline.studio import documents
 from shapespline.studio.asked import Asked
 from shapespline.studio.documents import opened
 from shapespline.studio.examples import EXAMPLES, example_bytes
@@ -83,6 +86,29 @@ def test_a_newer_fit_ends_the_older(page):
     done = page.next("done")
     assert done["generation"] == 11
     assert page.session._lanes["a"]._waiting is None
+
+
+def test_a_newer_picture_ends_the_reading_of_the_older(page, monkeypatch):
+    """The reader asks while it reads; what it was asked for is no longer wanted."""
+    began, go_on = threading.Event(), threading.Event()
+    file = io.BytesIO()
+    Image.fromarray(np.kron(np.eye(2, dtype=np.uint8), np.full((20, 20), 255, np.uint8))).save(
+        file, "PNG"
+    )
+    read = documents.read
+
+    def slow(source, *, progress, **options):
+        began.set()
+        assert go_on.wait(10)
+        progress("looking for ink")
+        return read(source, progress=progress, **options)
+
+    monkeypatch.setattr(documents, "read", slow)
+    page.say(file.getvalue(), type="open", name="old.png", generation=1)
+    assert began.wait(10)
+    page.say(file.getvalue(), type="open", name="new.png", generation=2)
+    go_on.set()
+    assert page.next("shape")["generation"] == 2
 
 
 def test_wrong_settings_are_refused_with_the_programs_sentence(page):

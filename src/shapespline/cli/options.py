@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     import numpy as np
 
     from shapespline import Drawing, Shape
-    from shapespline.monitor import Say
 
     Command = Callable[..., Any]
 
@@ -170,9 +169,7 @@ class Reading:
         """Those that were given, as options of `shapespline.read`."""
         return {name: value for name, value in _given(self).items() if name != "width"}
 
-    def read(
-        self, path: Path, sampling: float | None = None, say: Say | None = None
-    ) -> Shape | Drawing:
+    def read(self, path: Path, sampling: float | None = None, say: Any = None) -> Shape | Drawing:
         """What the file holds."""
         if self.width is None:
             return ss.read(path, sampling=sampling, progress=say, **self.given())
@@ -190,9 +187,7 @@ class Reading:
         found = columns_of(path, f"{x},{y or x}")
         return found if self.scale is None else found * self.scale
 
-    def outlines(
-        self, path: Path, tolerance: float | str | None = None, say: Say | None = None
-    ) -> Shape:
+    def outlines(self, path: Path, tolerance: float | str | None = None, say: Any = None) -> Shape:
         """The outlines in the file; of a drawing those that it was fitted to.
 
         Exact curves are sampled to a small part of the tolerance that they are to be fitted to.

@@ -52,8 +52,8 @@ def trace(
     image : array_like, shape (h, w) or (h, w, c), PIL image, or path-like
         Grey, grey + alpha (c = 2), RGB (3) or RGBA (4), first row on top, integers of 8 or 16
         bits, or floats (alpha and colours then in 0 to 1), or booleans (h, w); or a PNG, JPEG,
-        TIFF, BMP, WebP or GIF file. Arrays of integers are looked at strip by strip, so that
-        ``numpy.memmap`` serves for what does not fit the memory.
+        TIFF, BMP, WebP or GIF file. Arrays of integers are looked at strip by strip (but for
+        ``blur`` and ``colors``), so that ``numpy.memmap`` serves for what does not fit the memory.
     level : float, optional
         Where to cut, in the unit of the image (0 to 255 for 8 bits); pixels at or above it are
         light. Otsu's level if not given.
@@ -116,7 +116,7 @@ def trace(
         If the image is none, holds numbers that are not finite, an option is out of range, or the
         picture has fewer colours.
     FormatError
-        If the file is missing, no picture, damaged, or has more than LARGEST megapixels.
+        If the file is missing, no picture, damaged, or has more than 80 megapixels (of grey 175).
     DegenerateContourError
         If there is no outline: a constant image, a level outside its values, only specks,
         or so many outlines that it is noise.
@@ -135,6 +135,7 @@ def trace(
 
     Examples
     --------
+    >>> import numpy as np
     >>> image = np.full((8, 8), 255, dtype=np.uint8)
     >>> image[2:6, 2:6] = 0
     >>> contour = trace(image).longest
@@ -156,9 +157,7 @@ def trace(
         return color_areas(pixels, count, min_area=min_area, blur=blur, crop=crop, say=say)
     with contextlib.suppress(TypeError, ValueError):  # a window, as a command line says it
         local = float(local)
-    seeing = Seeing(
-        level, polarity, channel, color, invert, cast("Local", local), blur, crop
-    )
+    seeing = Seeing(level, polarity, channel, color, invert, cast("Local", local), blur, crop)
     shape = ink_outlines(_pixels(image, say), seeing, contours, min_area, say)
     if not centerline:
         return shape

@@ -51,7 +51,7 @@ def color_areas(
     """Areas of few colours, without gaps and without overlaps; as :func:`shapespline.trace` tells.
 
     Areas of fewer square pixels than ``min_area`` go to the neighbour with which they share most
-    border; if it is not given, as many as the noise of the picture asks for; without noise all stay.
+    border; if it is not given, as many as the noise of the picture asks for, without noise none.
     """
     pixels = _eight_bits(cropped(validated_pixels(image), crop))
     if blur:

@@ -154,16 +154,16 @@ def meetings(
     """Where the sides of outlines and open lines meet, as far as their level lines allow."""
     long = [length >= SHORTEST_OUTLINE for length in map(_length, outlines)]
     used = np.flatnonzero(np.array(drawn, dtype=bool) & np.array(long))
+    chosen = used.tolist()
     if len(used) == 0:
         return _NONE
-    ways = _Ways([outlines[k] for k in used], [closed[k] for k in used])
+    ways = _Ways([outlines[k] for k in chosen], [closed[k] for k in chosen])
     own, at, turn = _candidates(ways)
+    if len(own) == 0:
+        return _NONE
     turn = np.abs(turn)
-    sides, wide, apart = [], np.empty(0), np.empty(0)
-    meets, near = np.empty((0, 2)), np.empty(0)
+    wrong = np.zeros(len(own), dtype=bool)
     for _ in range(ROUNDS):
-        if len(own) == 0:
-            return _NONE
         near = DISTURBED + SQUARE * np.tan(0.5 * turn)
         behind, ahead = _room(ways, own, at)
         sides, wide = [], np.full(len(at), np.inf)
@@ -174,14 +174,9 @@ def meetings(
         meets, turn, off, apart = _meeting(*(side[0] for side in sides))
         at = at + np.clip(off, -SAME_CORNER, SAME_CORNER)
         # An outline whose corners change places has none.
-        kept = ~np.isin(own, own[1:][(np.diff(at) < 0) & (np.diff(own) == 0)])
-        if not kept.all():
-            own, at, turn, near, wide, apart = (
-                column[kept] for column in (own, at, turn, near, wide, apart)
-            )
-            meets, sides = meets[kept], [(one[kept], fits[kept]) for one, fits in sides]
+        wrong |= np.isin(own, own[1:][(np.diff(at) < 0) & (np.diff(own) == 0)])
     cut_off = np.interp(np.degrees(np.pi - turn), ANGLES, CUT_OFF)
-    good = sides[0][1] & sides[1][1] & (wide >= SHORTEST_SIDE) & (turn > LEAST_TURN)
+    good = sides[0][1] & sides[1][1] & (wide >= SHORTEST_SIDE) & (turn > LEAST_TURN) & ~wrong
     # The sides of a stroke's round end run side by side and meet nowhere.
     good &= apart <= MEET
     own = used[own]
@@ -320,7 +315,7 @@ def _distances(
     """Of points to polylines whose edges are short, each to its own; infinite if far."""
     from scipy.spatial import cKDTree
 
-    used = np.unique(own)
+    used = np.unique(own).tolist()
     if len(used) == 0:
         return np.empty(0)
     begins = [lines[k] if closed[k] else lines[k][:-1] for k in used]
@@ -328,7 +323,7 @@ def _distances(
         [np.diff(lines[k], axis=0, append=lines[k][: int(closed[k])]) for k in used]
     )
     # Each line in a plane of its own, far from the others.
-    planes = 10 * SIDE * used
+    planes = 10 * SIDE * np.array(used)
     tree = cKDTree(
         np.column_stack([np.concatenate(begins), np.repeat(planes, [len(x) for x in begins])])
     )
@@ -351,9 +346,7 @@ def with_corners(
     """Outlines and open lines with corners in place of what lies between their sides."""
     return [
         _with(points, own, ring) if len(own.points) else points
-        for points, own, ring in zip(
-            lines, corners.by_outline(len(lines)), closed, strict=True
-        )
+        for points, own, ring in zip(lines, corners.by_outline(len(lines)), closed, strict=True)
     ]
 
 

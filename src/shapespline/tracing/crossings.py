@@ -6,23 +6,22 @@ it is and nothing as large as it is made of floats.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from shapespline.errors import DegenerateContourError
 from shapespline.monitor import silent
 from shapespline.tracing.layer import strips
-from shapespline.tracing.threads import ink_and_threads
+from shapespline.tracing.threads import ink_and_threads, is_noise
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from shapespline.monitor import Say
     from shapespline.tracing.field import Field
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
-# So many crossings are traced in any case. Beyond, a picture of whose pairs of neighbours more than
-# this part differs is refused: of pure noise it is a half, of a page of small print a tenth.
-FEW_CROSSINGS, CROSSED_PART = 200_000, 0.2
 # What the ink of a thread has over a half at least: its outline needs some width to begin with.
 BARELY = 0.01
 # Where pixels touch by a corner, what there is less of so many pixels around needs less to be one:
@@ -102,19 +101,19 @@ def crossings(field: Field, say: Say = silent) -> Crossings:
         If there are so many that the picture is noise.
     """
     height, width = field.shape
-    possible = 2 * height * width
-    found: list[tuple[IntArray, ...]] = []
+    found: list[tuple[NDArray[Any], ...]] = []
     count = 0
     for rows in strips((height + 1, width)):
         if rows.start:
             say(f"looking for edges, row {rows.start} of {height}")
         found.append(_of_strip(field, rows))
         count += len(found[-1][0]) + len(found[-1][1])
-        if count > max(FEW_CROSSINGS, CROSSED_PART * possible):
+        if is_noise(count, height * width):
             looked_at = 2 * min(rows.stop, height) * width
             raise DegenerateContourError(
                 f"{count} of {looked_at} pairs of neighbouring pixels differ: the picture is noise"
-                " or a pattern as fine as its pixels; blur it, scale it down or choose another level"
+                " or a pattern as fine as its pixels; blur it, scale it down or choose another"
+                " level"
             )
     say(f"following {count} crossings")
     beside, below, ink_beside, ink_below, cells, codes = map(
@@ -133,10 +132,12 @@ def crossings(field: Field, say: Say = silent) -> Crossings:
     )
 
 
-def _of_strip(field: Field, rows: slice) -> tuple[IntArray, ...]:
-    """Crossings of some rows of the picture with a rim around it, side by side and one above the
-    other, with whether the first of two is ink; its cells that something crosses, and which of
-    their corners are ink."""
+def _of_strip(field: Field, rows: slice) -> tuple[NDArray[Any], ...]:
+    """What lies in some rows of the picture with a rim around it.
+
+    Crossings side by side, and one above the other; for each whether its first pixel is ink; cells
+    that something crosses, and which of their corners are ink.
+    """
     height, width = field.shape
     inner = slice(max(rows.start - 1, 0), min(rows.stop, height))
     above, under = int(rows.start == 0), int(rows.stop > height)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from shapespline.tracing.layer import Layer
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
@@ -43,10 +45,10 @@ class Field:
         """Height and width of the picture."""
         return self.values.shape
 
-    def ink(self, rows: slice) -> BoolArray:
-        """Which pixels of some rows are ink by more than half."""
-        above = self.values[rows] >= self.cut
-        return above if self.light else ~above
+    def is_ink(self, values: NDArray[Any]) -> BoolArray:
+        """Which values are those of ink by more than half."""
+        above = values >= self.cut
+        return np.asarray(above if self.light else ~above)
 
     def coverage(self, row: IntArray, column: IntArray) -> FloatArray:
         """Part of pixels that is ink, 1/2 at the cut; outside the picture that of its rim."""

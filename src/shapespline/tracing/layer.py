@@ -1,7 +1,7 @@
 """Layer: one value for each pixel of a picture, worked out where it is asked for.
 
-A picture is kept as it came, in memory or in a mapped file. Whatever has to see all of it goes strip
-by strip, so that nothing as large as the picture is made beside it.
+A picture is kept as it came, in memory or in a mapped file. Whatever has to see all of it goes
+strip by strip, so that nothing as large as the picture is made beside it.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class Layer:
 
     def _counted(self, values: NDArray[Any]) -> IntArray:
         if not self.is_whole:
-            return np.histogram(values, self.bins)[0]
+            return np.histogram(values, FLOAT_BINS, self.range)[0]
         if values.dtype == np.uint8 and values.shape[1] % 2 == 0:
             # Two pixels at a time are half the work.
             pairs = np.ascontiguousarray(values).view(np.uint16).ravel()

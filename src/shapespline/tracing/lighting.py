@@ -127,9 +127,7 @@ def _smooth_ground(
         used = kept
 
     def ground(rows: IntArray, columns: IntArray) -> FloatArray:
-        y, x = (
-            2 * (at + 0.5) / n - 1 for at, n in zip((rows, columns), shape, strict=True)
-        )
+        y, x = (2 * (at + 0.5) / n - 1 for at, n in zip((rows, columns), shape, strict=True))
         found = np.zeros(np.broadcast_shapes(y.shape, x.shape))
         for i in range(DEGREE + 1):
             own = [value * x**j for (k, j), value in zip(degrees, solved, strict=True) if k == i]

@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 # Told by content, not by ending. Pillow knows more, among them formats that start programs.
 CONTENTS = ("PNG", "JPEG", "TIFF", "BMP", "WEBP", "GIF")
-# Pixels. Tracing holds about 10 bytes for each; Pillow's own limit is a little above this one.
-LARGEST_IMAGE = 80_000_000
+# Pixels, which are decoded at once: four bytes for each, twice for a while, but one or two of grey.
+# Pillow knows no larger ones than the second. Larger arrays are traced strip by strip.
+LARGEST_IMAGE, LARGEST_GREY = 80_000_000, 175_000_000
 
 
 def load(path: Path) -> NDArray[Any]:
@@ -32,23 +33,21 @@ def load(path: Path) -> NDArray[Any]:
         uint8, uint16 or float64.
     """
     with path.open("rb") as file, warnings.catch_warnings():
-        # Pillow warns of what it takes for a bomb; here that is an error like the others.
-        warnings.simplefilter("error", Image.DecompressionBombWarning)
+        # Pillow warns of what it may take for a bomb; here there are limits of our own.
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         # Damaged metadata says nothing about the pixels.
         warnings.filterwarnings("ignore", category=UserWarning, module="PIL")
         try:
             picture = Image.open(file, formats=CONTENTS)
-            _check_size(*picture.size)
+            _check_size(picture)
             _note_frames(picture)
             return _pixels(_upright(picture))
         except UnidentifiedImageError as error:
             raise FormatError(
                 "not a PNG, JPEG, TIFF, BMP, WebP or GIF picture, or damaged from the start"
             ) from error
-        except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
-            raise FormatError(
-                f"the picture has more than {LARGEST_IMAGE // 10**6} megapixels; scale it down"
-            ) from error
+        except Image.DecompressionBombError as error:
+            raise FormatError(_too_large(LARGEST_GREY)) from error
         except (FormatError, MemoryError, PictureWarning):
             raise
         except Exception as error:  # decoders raise whatever damage makes them stumble over
@@ -67,12 +66,18 @@ def _note_frames(picture: Image.Image) -> None:
         )
 
 
-def _check_size(width: int, height: int) -> None:
-    if width * height > LARGEST_IMAGE:
-        raise FormatError(
-            f"the picture has {width} x {height} pixels, more than {LARGEST_IMAGE // 10**6}"
-            " megapixels; scale it down"
-        )
+def _check_size(picture: Image.Image) -> None:
+    is_grey = picture.mode in ("1", "L") or picture.mode.startswith("I;16")
+    most = LARGEST_GREY if is_grey else LARGEST_IMAGE
+    if picture.width * picture.height > most:
+        raise FormatError(_too_large(most, f"{picture.width} x {picture.height} pixels, "))
+
+
+def _too_large(most: int, size: str = "") -> str:
+    return (
+        f"the picture has {size}more than {most // 10**6} megapixels; scale it down, or give"
+        " shapespline.trace its pixels as an array, such as a numpy.memmap"
+    )
 
 
 def _upright(picture: Image.Image) -> Image.Image:
@@ -106,5 +111,5 @@ def _pixels(picture: Image.Image) -> NDArray[Any]:
 
 def pixels_of(picture: Image.Image) -> NDArray[Any]:
     """Pixels of a picture that Pillow holds, turned upright, as `load` gives those of a file."""
-    _check_size(*picture.size)
+    _check_size(picture)
     return _pixels(_upright(picture))

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from shapespline.tracing.field import Field
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
+# So many crossings are traced in any case. Beyond, a picture of whose pairs of neighbours more than
+# this part differs is refused: of pure noise it is a half, of a page of small print a tenth.
+FEW_CROSSINGS, CROSSED_PART = 200_000, 0.2
 # Pixels that lack no more than this of a half may belong to a thread.
 LACKS = 0.2
 # A thread is this wide if nothing else is known of it, and lacks no more than this; where it goes
@@ -25,11 +28,21 @@ WIDE, PALE, NECK = 0.9, 0.1, 0.55
 GROUND, DEEPER = 0.25, 0.5
 
 
+def is_noise(count: int, n_pixels: int) -> bool:
+    """Whether so many pairs of neighbours, one of them ink, are more than drawings have."""
+    return count > max(FEW_CROSSINGS, CROSSED_PART * 2 * n_pixels)
+
+
 def ink_and_threads(field: Field, rows: slice) -> BoolArray:
-    """Which pixels of some rows are ink, threads of ink among them, none that a thread of ground crosses."""
-    ink = field.ink(rows)
-    wide = LACKS * field.contrast
+    """Which pixels of some rows are ink, none that a thread of ground crosses, threads among them.
+
+    In noise there are none to be looked for.
+    """
     values = field.values[rows]
+    ink = field.is_ink(values)
+    if is_noise(int((ink[1:] != ink[:-1]).sum() + (ink[:, 1:] != ink[:, :-1]).sum()), ink.size):
+        return ink
+    wide = LACKS * field.contrast
     row, column = np.nonzero((values >= field.cut - wide) & (values < field.cut + wide))
     del values
     for part in np.array_split(np.arange(len(row)), len(row) // 200_000 + 1):
