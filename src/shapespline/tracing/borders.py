@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 OUTSIDE = -1
@@ -47,11 +49,37 @@ class Borders(NamedTuple):
     links: list[list[int]]
 
 
+class Arc(NamedTuple):
+    """A border from junction to junction, or a closed one, whose first node is its last.
+
+    Attributes
+    ----------
+    path : list of int
+        Its nodes in order.
+    left, right : int
+        The labels on its sides.
+    is_ring : bool
+    """
+
+    path: list[int]
+    left: int
+    right: int
+    is_ring: bool
+
+
 class Ring(NamedTuple):
-    """A closed border with one label on its left: its nodes in order."""
+    """A closed border with one label on its left: arcs in order, and whether they run backwards."""
 
     label: int
-    path: list[int]
+    halves: list[tuple[int, bool]]
+
+    def outline(self, lines: Sequence[FloatArray], arcs: Sequence[Arc]) -> FloatArray:
+        """Points of the ring, from those of each arc (of a closed one without the last)."""
+        parts = []
+        for index, backwards in self.halves:
+            own = lines[index][::-1] if backwards else lines[index]
+            parts.append(own if arcs[index].is_ring else own[:-1])
+        return np.concatenate(parts)
 
 
 def borders_of(labels: IntArray) -> Borders:
@@ -123,8 +151,8 @@ def _apart(padded: IntArray, r: int, c: int) -> tuple[tuple[int, int], tuple[int
     return (0, 3), (1, 2)
 
 
-def rings_of(borders: Borders, points: FloatArray) -> list[Ring]:
-    """Every ring around an area or a hole in it, the area on its left.
+def rings_of(borders: Borders, points: FloatArray) -> tuple[list[Arc], list[Ring]]:
+    """All borders, and every ring of them around an area or a hole in it, the area on its left.
 
     Parameters
     ----------
@@ -132,32 +160,31 @@ def rings_of(borders: Borders, points: FloatArray) -> list[Ring]:
     points : ndarray, shape (n, 2)
         Places of nodes, junctions and corners, y up, each node between its two pixels.
     """
-    arcs = _arcs(borders)
+    arcs = [
+        Arc(path, *_sides(borders, points, path), not _is_junction(borders, path[0]))
+        for path in _paths(borders)
+    ]
     # A half of a border: the arc, and whether it is run backwards.
     starts: dict[tuple[int, int], tuple[int, bool]] = {}
     for index, arc in enumerate(arcs):
-        if _is_junction(borders, arc[0]):
-            starts[arc[0], arc[1]] = (index, False)
-            starts[arc[-1], arc[-2]] = (index, True)
-    labels = [_sides(borders, points, arc) for arc in arcs]
+        if not arc.is_ring:
+            starts[arc.path[0], arc.path[1]] = (index, False)
+            starts[arc.path[-1], arc.path[-2]] = (index, True)
     rings, done = [], set()
-    for index in range(len(arcs)):
-        for backwards in (False, True):
-            if (index, backwards) in done:
-                continue
-            label = labels[index][backwards]
-            path: list[int] = []
+    for index, arc in enumerate(arcs):
+        for backwards, label in ((False, arc.left), (True, arc.right)):
+            halves = []
             half = (index, backwards)
             while half not in done:
                 done.add(half)
-                arc = arcs[half[0]][::-1] if half[1] else arcs[half[0]]
-                path += arc[:-1]
-                if not _is_junction(borders, arc[-1]):
-                    break  # a ring of its own
-                half = starts[arc[-1], _clockwise(borders, arc[-1], arc[-2])]
-            if label != OUTSIDE:
-                rings.append(Ring(label, path))
-    return rings
+                halves.append(half)
+                path = arcs[half[0]].path[:: -1 if half[1] else 1]
+                if arcs[half[0]].is_ring:
+                    break
+                half = starts[path[-1], _clockwise(borders, path[-1], path[-2])]
+            if halves and label != OUTSIDE:
+                rings.append(Ring(label, halves))
+    return arcs, rings
 
 
 def _is_junction(borders: Borders, node: int) -> bool:
@@ -172,7 +199,7 @@ def _clockwise(borders: Borders, junction: int, came: int) -> int:
     return next(four[(side + k) % 4] for k in (1, 2, 3, 4) if four[(side + k) % 4] >= 0)
 
 
-def _arcs(borders: Borders) -> list[list[int]]:
+def _paths(borders: Borders) -> list[list[int]]:
     """Borders from junction to junction, and closed ones, whose first node is their last."""
     seen: set[int] = set()
     arcs = []

@@ -10,7 +10,8 @@ import numpy as np
 from shapespline.errors import InvalidInputError, PictureWarning, caller_level
 from shapespline.geometry import signed_area
 from shapespline.monitor import silent
-from shapespline.tracing.borders import OUTSIDE, Borders, Ring, borders_of, rings_of
+from shapespline.tracing.border_lines import Bordering, NodePlaces, drawn_borders
+from shapespline.tracing.borders import OUTSIDE, Borders, borders_of, rings_of
 from shapespline.tracing.edges import EVEN, EVEN_NOISE, FARTHEST, REACH, places_across
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import noise_deviation
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from shapespline.monitor import Say
-    from shapespline.typing import ArrayLike, BoolArray, FloatArray
+    from shapespline.typing import ArrayLike, BoolArray, FloatArray, IntArray
 
 # Square pixels of the smallest area of a picture without noise, and with it: so many for each part
 # of the contrast that the noise is, and no more than so many.
@@ -76,8 +77,12 @@ def color_areas(
         )
     say(f"following the borders of {len(palette.colors)} colours")
     borders = borders_of(palette.labels)
-    level, drawn = _places(pixels, palette, borders, noise)
-    return _shape(rings_of(borders, level), drawn, palette)
+    found = _places(pixels, palette, borders, noise)
+    arcs, rings = rings_of(borders, found.level)
+    say(f"looking for the corners of {len(arcs)} borders")
+    lines = drawn_borders(pixels, palette, Bordering(borders, arcs, rings, found), noise)
+    return _shape([ring.label for ring in rings],
+                  [ring.outline(lines, arcs) for ring in rings], palette)  # fmt: skip
 
 
 def checked_count(colors: int | str) -> int | str:
@@ -106,12 +111,13 @@ def _eight_bits(pixels: NDArray[Any]) -> NDArray[np.uint8]:
 
 def _places(
     pixels: NDArray[np.uint8], palette: Palette, borders: Borders, noise: float
-) -> tuple[FloatArray, FloatArray]:
-    """Places of nodes, junctions and corners: between pixel centres, and where they were drawn."""
+) -> NodePlaces:
+    """Places of nodes, junctions and corners."""
     nodes = borders.nodes
     height, width = palette.labels.shape
     rim = (nodes.first == OUTSIDE) | (nodes.second == OUTSIDE)
     level, drawn = np.full(len(rim), 0.5), np.full(len(rim), 0.5)
+    known = np.zeros(len(rim), dtype=bool)
     for chunk in np.array_split(np.flatnonzero(~rim), (~rim).sum() // 100_000 + 1):
         across, step = _across(pixels, palette, borders, chunk)
         first, second = across[:, REACH - 1] - 0.5, across[:, REACH] - 0.5
@@ -120,7 +126,8 @@ def _places(
         level[chunk] = np.clip(share, INNER, 1 - INNER)
         ahead = places_across(across, EVEN + EVEN_NOISE * noise * 255.0 / step) - REACH + 0.5
         moved = np.abs(ahead - share) <= FARTHEST
-        drawn[chunk] = np.where(moved & told, ahead, share)
+        known[chunk] = moved & told
+        drawn[chunk] = np.where(known[chunk], ahead, share)
     found = []
     for shares in (level, drawn):
         x = nodes.column + 0.5 + np.where(nodes.upright, 0.0, shares)
@@ -128,7 +135,7 @@ def _places(
         own = np.clip(np.column_stack([x, y]), 0, (width, height))
         junctions = [_junction(own, four, rim, (width, height)) for four in borders.cells]
         found.append(np.concatenate([own, _pairs(junctions), _pairs(borders.corners)]))
-    return found[0], found[1]
+    return NodePlaces(found[0], found[1], np.pad(known, (0, len(found[0]) - len(known))))
 
 
 def _junction(
@@ -166,12 +173,11 @@ def _across(
     return across, float(np.sqrt(np.median(length)))
 
 
-def _shape(rings: Sequence[Ring], places: FloatArray, palette: Palette) -> Shape:
+def _shape(labels: Sequence[int], outlines: Sequence[FloatArray], palette: Palette) -> Shape:
     """Areas by size, each with the holes in it after it."""
     height, width = palette.labels.shape
-    outlines = [places[ring.path] for ring in rings]
     areas = np.array([signed_area(points) for points in outlines])
-    owner = _owners(rings, outlines, areas)
+    owner = _owners(np.array(labels), outlines, areas)
     contours: list[Contour] = []
     parents: list[int] = []
     colors: list[str | None] = []
@@ -179,7 +185,7 @@ def _shape(rings: Sequence[Ring], places: FloatArray, palette: Palette) -> Shape
         if areas[index] <= 0:
             break
         around = len(contours)
-        color = "#" + "".join(f"{round(value):02x}" for value in palette.colors[rings[index].label])
+        color = "#" + "".join(f"{round(value):02x}" for value in palette.colors[labels[index]])
         for ring in [index, *np.flatnonzero(owner == index).tolist()]:
             own = _without_repeats(outlines[ring])
             contours.append(Contour(own, closed=True, accuracy=DRAWN_ACCURACY))
@@ -188,14 +194,11 @@ def _shape(rings: Sequence[Ring], places: FloatArray, palette: Palette) -> Shape
     return Shape(contours, parents, ViewBox(0, 0, width, height), PIXEL, colors=colors)
 
 
-def _owners(
-    rings: Sequence[Ring], outlines: Sequence[FloatArray], areas: FloatArray
-) -> NDArray[np.int64]:
+def _owners(labels: IntArray, outlines: Sequence[FloatArray], areas: FloatArray) -> IntArray:
     """For each hole the smallest area of its label around it; -1 for outlines of areas."""
-    labels = np.array([ring.label for ring in rings])
     low = np.array([points.min(axis=0) for points in outlines])
     high = np.array([points.max(axis=0) for points in outlines])
-    owner = np.full(len(rings), -1)
+    owner = np.full(len(labels), -1)
     for hole in np.flatnonzero(areas <= 0).tolist():
         around = (areas > 0) & (labels == labels[hole])
         around &= (low <= low[hole]).all(axis=1) & (high >= high[hole]).all(axis=1)

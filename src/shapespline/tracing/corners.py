@@ -55,7 +55,7 @@ DIGITS = 9
 SHORTEST_OUTLINE = 16.0
 
 
-class _Found(NamedTuple):
+class Corners(NamedTuple):
     """Corners: the outline of each, place, turn, and the arc lengths where its sides take over."""
 
     own: IntArray
@@ -64,17 +64,19 @@ class _Found(NamedTuple):
     begins: FloatArray
     ends: FloatArray
 
-    def chosen(self, which: BoolArray) -> _Found:
+    def chosen(self, which: BoolArray) -> Corners:
         """Some of them."""
-        return _Found(*(column[which] for column in self))
+        return Corners(self.own[which], *(column[which] for column in self[1:]))
 
-    def by_outline(self, count: int) -> list[_Found]:
+    def by_outline(self, count: int) -> list[Corners]:
         """Those of each outline."""
         parts = np.searchsorted(self.own, np.arange(1, count))
-        return [_Found(*part) for part in zip(*(np.split(x, parts) for x in self), strict=True)]
+        columns = [np.split(column, parts) for column in self[1:]]
+        own = np.split(self.own, parts)
+        return [Corners(*part) for part in zip(own, *columns, strict=True)]
 
 
-_NONE = _Found(np.empty(0, dtype=np.int64), np.empty((0, 2)), *np.empty((3, 0)))
+_NONE = Corners(np.empty(0, dtype=np.int64), np.empty((0, 2)), *np.empty((3, 0)))
 
 
 class _Ways:
@@ -87,14 +89,14 @@ class _Ways:
     """
 
     def __init__(self, lines: Sequence[FloatArray], closed: Sequence[bool]) -> None:
-        around = [
+        whole = [
             np.concatenate([line, line[:1]]) if ring else line
             for line, ring in zip(lines, closed, strict=True)
         ]
-        stations = [_stations(line) for line in around]
+        stations = [_stations(line) for line in whole]
         self.lengths = np.array([s[-1] for s in stations])
         self.closed = np.array(closed)
-        self._points, self._s = np.concatenate(around), np.concatenate(stations)
+        self._points, self._s = np.concatenate(whole), np.concatenate(stations)
         # A way begins a pixel after the one before it ends.
         self._starts = np.concatenate([[0.0], np.cumsum(self.lengths + 1.0)[:-1]])
         self._global = self._s + np.repeat(self._starts, [len(s) for s in stations])
@@ -150,7 +152,7 @@ def meetings(
     level_lines: Sequence[FloatArray],
     drawn: Sequence[bool],
     closed: Sequence[bool],
-) -> _Found:
+) -> Corners:
     """Where the sides of outlines and open lines meet, as far as their level lines allow."""
     long = [length >= SHORTEST_OUTLINE for length in map(_length, outlines)]
     used = np.flatnonzero(np.array(drawn, dtype=bool) & np.array(long))
@@ -183,7 +185,7 @@ def meetings(
     good[good] = _distances(meets[good], own[good], level_lines, closed) <= cut_off[good]
     # Edges along the rows and columns meet on whole numbers, but for a rounding.
     meets = np.round(meets, DIGITS)
-    return _Found(own, meets, turn, at - near, at + near).chosen(good)
+    return Corners(own, meets, turn, at - near, at + near).chosen(good)
 
 
 def _stations(points: FloatArray) -> FloatArray:
@@ -341,7 +343,7 @@ def _distances(
 
 
 def with_corners(
-    lines: Sequence[FloatArray], corners: _Found, closed: Sequence[bool]
+    lines: Sequence[FloatArray], corners: Corners, closed: Sequence[bool]
 ) -> list[FloatArray]:
     """Outlines and open lines with corners in place of what lies between their sides."""
     return [
@@ -350,7 +352,7 @@ def with_corners(
     ]
 
 
-def _with(points: FloatArray, corners: _Found, ring: bool) -> FloatArray:
+def _with(points: FloatArray, corners: Corners, ring: bool) -> FloatArray:
     s = _stations(np.concatenate([points, points[:1]]))
     length = s[-1]
     kept = np.ones(len(points), dtype=bool)
@@ -361,17 +363,23 @@ def _with(points: FloatArray, corners: _Found, ring: bool) -> FloatArray:
     return np.concatenate([points[kept], corners.points])[order]
 
 
-def _missing(at: FloatArray, outlines: Sequence[FloatArray], field: Field) -> FloatArray:
-    """Ink around each corner that the picture has and the outlines do not, square pixels."""
-    height, width = field.shape
-    keys, drawn = border_coverage(outlines, height, width)
+def around(at: FloatArray, size: tuple[int, ...]) -> tuple[IntArray, IntArray, BoolArray]:
+    """Rows and columns of pixels around places, shape (n, 7, 7), and which are in the picture."""
+    height, width = size
     column = np.floor(at[:, 0]).astype(np.int64)
     row = np.floor(height - at[:, 1]).astype(np.int64)
     offsets = np.arange(-AROUND, AROUND + 1)
     r, c = np.broadcast_arrays(
         row[:, None, None] + offsets[:, None], column[:, None, None] + offsets
     )
-    inside = (r >= 0) & (r < height) & (c >= 0) & (c < width)
+    return r, c, (r >= 0) & (r < height) & (c >= 0) & (c < width)
+
+
+def _missing(at: FloatArray, outlines: Sequence[FloatArray], field: Field) -> FloatArray:
+    """Ink around each corner that the picture has and the outlines do not, square pixels."""
+    height, width = field.shape
+    keys, drawn = border_coverage(outlines, height, width)
+    r, c, inside = around(at, field.shape)
     seen = field.coverage(r, c)
     key = np.where(inside, r * width + c, -1)
     place = np.minimum(np.searchsorted(keys, key), max(len(keys) - 1, 0))
