@@ -102,7 +102,8 @@ def fit_curve(
     regularities : "auto", None or sequence of str
         With "drawn", what lines and arcs may keep exactly where the data allow it: "tangent",
         "rotation", "mirror", "axis-parallel", "parallel", "perpendicular", "concentric",
-        "equal-radius", "collinear"; all of these, none, or some. ``fit.regularities`` lists them.
+        "equal-radius", "collinear"; among the outlines of a shape also "equal-copies" and
+        "equal-spacing"; all of these, none, or some. ``fit.regularities`` lists them.
     effort : {"fast", "balanced", "smallest"}
         How long to search.
     weights : array_like, shape (n,), optional

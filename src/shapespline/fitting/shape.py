@@ -9,6 +9,7 @@ import numpy as np
 
 from shapespline.analysis import shared_arcs
 from shapespline.errors import InvalidInputError
+from shapespline.fitting.across import across_outlines
 from shapespline.fitting.repair import uncrossed
 from shapespline.fitting.request import Request
 from shapespline.fitting.settings import Settings, tolerance_length
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
     from shapespline.monitor import Callback
     from shapespline.typing import ArrayLike, Character, CornerChoice, Effort, Ends, Form, Loss
-    from shapespline.values import Fit, Piece
+    from shapespline.values import Fit, Piece, Regularity
 
 # Of the tolerance: points of two contours that are no farther apart are one point of a boundary.
 SNAP_PART = 0.01
@@ -55,6 +56,8 @@ def fit_shape(
     """Fit a B-spline curve to each contour of a shape.
 
     Contours that do not cross stay uncrossed: where two curves do, both are fitted more closely.
+    With ``character="drawn"`` equal holes, copies and equal steps between them hold exactly where
+    the points allow it; ``drawing.regularities`` lists them.
 
     Parameters
     ----------
@@ -115,8 +118,8 @@ def fit_shape(
         time_limit=time_limit,
     )
     request = DrawingRequest.of(shape, settings, shared_boundaries)
-    fits = _solved(request, callback, progress or _silent)
-    return Drawing.of(shape, fits)
+    fits, together = _solved(request, callback, progress or _silent)
+    return Drawing.of(shape, fits, regularities=together)
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,8 +169,8 @@ def _silent(done: int, total: int) -> None:
 
 def _solved(
     request: DrawingRequest, callback: Callback | None, progress: Callable[[int, int], object]
-) -> list[Fit]:
-    """The fit of each contour."""
+) -> tuple[list[Fit], tuple[Regularity, ...]]:
+    """The fit of each contour, and what they keep together."""
 
     def monitor() -> Monitor:
         return Monitor(callback, request.settings.time_limit)
@@ -176,12 +179,19 @@ def _solved(
         return answer(sub_request, monitor())
 
     if request.shared_boundaries:
-        return _with_shared(request, monitor, progress)
+        return _with_shared(request, monitor, progress), ()
     requests = [request.of_contour(index) for index in range(len(request.shape))]
     fits = _one_by_one(requests, monitor, progress)
     if request.settings.n_control_points is not None:
-        return fits
-    return uncrossed(request.shape.contours, fits, requests[0], ask)
+        return fits, ()
+    allowed = requests[0].style.regularities
+    tolerance = request.settings.tolerance
+    if tolerance is not None:
+        tolerance = tolerance_length(tolerance, request.shape.contours[0])
+    fits, found = across_outlines(fits, allowed, tolerance)
+    apart = uncrossed(request.shape.contours, fits, requests[0], ask)
+    same = {k for k, (one, now) in enumerate(zip(fits, apart, strict=True)) if one is now}
+    return apart, tuple(one for one in found if same.issuperset(one.pieces))
 
 
 def _one_by_one(

@@ -9,6 +9,7 @@ It is one object::
     parents  for each fit the index of the one directly around it, -1 for none
     colors   for each fit its colour as #rrggbb or null; not there if no fit has one
     reference  name of the coordinate reference system; not there if it is not known
+    regularities  as of a fit, with indices of fits for pieces; not there if there are none
     fits     objects with the fields of shapespline.drawing.Fit:
         spline       {degree, periodic, knots, control_points: distinct, as [x, y]}
         contour      {closed, points: as [x, y], source: null if each point stands for itself,
@@ -79,7 +80,7 @@ LINE_LENGTH = 100
 DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
 FIT_FIELDS += ("status", "history", "method", "sections", "outliers", "uncertainty")
-NOT_ALWAYS = ("colors", "reference")  # in a document only where a drawing has them
+NOT_ALWAYS = ("colors", "reference", "regularities")  # in a document only where a drawing has them
 DRAWING_FIELDS = ("format", "version", "unit", "frame", "parents", "fits")
 CONTOUR_FIELDS: tuple[str, ...] = ("closed", "points", "source", "accuracy")
 COUNTS = ("iteration", "evaluations")  # the columns of the history that hold integers
@@ -126,7 +127,8 @@ def encode(drawing: Drawing) -> bytes:
         "fits": [_fit_document(fit) for fit in drawing],
     }
     beside = {"colors": any(drawing.colors) and [*drawing.colors], "reference": drawing.reference}
-    document |= {name: beside[name] for name in NOT_ALWAYS if beside[name]}
+    document |= {name: value for name, value in beside.items() if value}
+    document |= regularities_document(drawing.regularities)
     return (_laid_out(document, 0) + "\n").encode("ascii")
 
 
@@ -199,7 +201,8 @@ def _fit_document(fit: Fit) -> dict[str, Any]:
 
 def _is_drawn(drawing: Drawing) -> bool:
     """Whether there are arcs or regularities."""
-    return any(fit.regularities or any(piece.arc for piece in fit.sections) for fit in drawing)
+    found = any(fit.regularities or any(piece.arc for piece in fit.sections) for fit in drawing)
+    return found or bool(drawing.regularities)
 
 
 def _finite(array: FloatArray, name: str) -> list[float]:
@@ -291,8 +294,10 @@ def _drawing(document: object) -> Drawing:
     fits = [_fit(item, f"fits[{i}]") for i, item in enumerate(items)]
     colors, reference = fields.get("colors"), fields.get("reference")
     colors = None if colors is None else checked_list(colors, "colors")
+    found = checked_regularities(fields.get("regularities", []), "regularities", len(fits))
     try:
-        return Drawing(fits, parents, frame, unit, colors=colors, reference=reference)
+        return Drawing(fits, parents, frame, unit, colors=colors, reference=reference,
+                       regularities=found)  # fmt: skip
     except InvalidInputError as error:
         raise FormatError(str(error)) from error
 

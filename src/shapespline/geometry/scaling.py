@@ -98,7 +98,15 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
     if isinstance(value, Outlines):
         return Outlines([_pieces(item, factor) for item in value.curves], frame, unit)
     fits = [_fit(item, factor) for item in value]
-    return Drawing(fits, value.parents, frame, unit, colors=value.colors, reference=reference)
+    return Drawing(
+        fits,
+        value.parents,
+        frame,
+        unit,
+        colors=value.colors,
+        reference=reference,
+        regularities=[one._replace(off=factor * one.off) for one in value.regularities],
+    )
 
 
 def _contour(contour: Contour, factor: float) -> Contour:

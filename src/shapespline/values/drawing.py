@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from shapespline.geometry import Box
     from shapespline.typing import ArrayLike
+    from shapespline.values.regularity import Regularity
     from shapespline.values.view_box import ViewBox
 from shapespline.values.equality import ByValue
 from shapespline.values.exchanged import Exchanged
@@ -50,6 +51,9 @@ class Drawing(ByValue, Shown, Exchanged):
         and where no colour is known.
     reference : str, optional
         Coordinate reference system of the points, such as "EPSG:25832", if known.
+    regularities : sequence of Regularity, optional
+        What the fits keep together where they are as they were drawn, such as equal holes in a row;
+        their ``pieces`` are places among ``fits`` (default: none).
     """
 
     fits: tuple[Fit, ...]
@@ -58,6 +62,7 @@ class Drawing(ByValue, Shown, Exchanged):
     unit: str | None
     colors: tuple[str | None, ...]
     reference: str | None
+    regularities: tuple[Regularity, ...]
 
     def __init__(
         self,
@@ -68,6 +73,7 @@ class Drawing(ByValue, Shown, Exchanged):
         *,
         colors: Sequence[str | None] | None = None,
         reference: str | None = None,
+        regularities: Sequence[Regularity] = (),
     ) -> None:
         fits = (fits,) if isinstance(fits, Fit) else tuple(fits)
         if not fits:
@@ -81,9 +87,12 @@ class Drawing(ByValue, Shown, Exchanged):
         object.__setattr__(self, "unit", checked_unit(unit))
         object.__setattr__(self, "colors", checked_colors(colors, len(fits)))
         object.__setattr__(self, "reference", checked_reference(reference))
+        object.__setattr__(self, "regularities", tuple(regularities))
 
     @classmethod
-    def of(cls, shape: Shape, fits: Sequence[Fit]) -> Drawing:
+    def of(
+        cls, shape: Shape, fits: Sequence[Fit], *, regularities: Sequence[Regularity] = ()
+    ) -> Drawing:
         """Fits of the contours of a shape, with all that the shape says of itself.
 
         Parameters
@@ -92,6 +101,8 @@ class Drawing(ByValue, Shown, Exchanged):
             Gives nesting, frame, unit, colours and coordinate reference.
         fits : sequence of Fit
             One for each contour, in their order.
+        regularities : sequence of Regularity, optional
+            What several of them repeat.
 
         Raises
         ------
@@ -114,6 +125,7 @@ class Drawing(ByValue, Shown, Exchanged):
             shape.unit,
             colors=shape.colors,
             reference=shape.reference,
+            regularities=regularities,
         )
 
     def __len__(self) -> int:

@@ -13,7 +13,8 @@ class Regularity(NamedTuple):
     name : str
         Such as "axis-parallel" or "equal-radius".
     pieces : tuple of int
-        The pieces that it is about, by their places among ``fit.sections``.
+        The pieces that it is about, by their places among ``fit.sections``; of a drawing the
+        fits, by their places among ``drawing.fits``.
     off : float
         How far the data alone were from it: degrees for directions, otherwise data units.
     order : int

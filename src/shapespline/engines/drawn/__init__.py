@@ -1,7 +1,19 @@
 """The drawn engine: lines, arcs and free-form runs, with what a drawing repeats."""
 
+from shapespline.engines.drawn.across import Feature, repeated_outlines
 from shapespline.engines.drawn.engine import as_drawn
+from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES
 
-__all__ = ["NAMES", "Drawn", "DrawnArc", "DrawnLine", "FreeRun", "as_drawn"]
+__all__ = [
+    "NAMES",
+    "Drawn",
+    "DrawnArc",
+    "DrawnLine",
+    "Feature",
+    "FreeRun",
+    "Observed",
+    "as_drawn",
+    "repeated_outlines",
+]

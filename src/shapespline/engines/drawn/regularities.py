@@ -41,6 +41,8 @@ NAMES = (
     "concentric",
     "equal-radius",
     "collinear",
+    "equal-copies",
+    "equal-spacing",
 )
 # Squared standard errors that an equation may be off by, a tangent joint by more; nats by which it
 # must be a surprise (DRA-04).
