@@ -44,6 +44,7 @@ OPTIONS = {
     "effort": "fast",
     "character": "drawn",
     "regularities": None,
+    "simplify": True,
     "weights": WEIGHTS,
     "sigma": 0.05 / np.sqrt(WEIGHTS),
     "loss": "tukey",
@@ -96,7 +97,8 @@ EXPECTED = {
                 for goal in ("of size", "estimate, weighted", "estimate, measured")
             ),
             *(("character", goal) for goal in DATA if goal.endswith("one spline")),
-            *(("regularities", goal) for goal in DATA),  # beside character="drawn" only
+            # Beside character="drawn" only.
+            *((name, goal) for name in ("regularities", "simplify") for goal in DATA),
         ],
         REFUSED,
     ),

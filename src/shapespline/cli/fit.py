@@ -227,6 +227,10 @@ def fit(
             panel=FIT,
         ),
     ] = "auto",
+    simplify: Annotated[
+        bool,
+        typer.Option("--simplify", help="Drawn, without details below -t.", rich_help_panel=FIT),
+    ] = False,
     outliers: Annotated[
         bool,
         Option(
@@ -314,6 +318,7 @@ def fit(
         "symmetric": symmetric,
         "character": character,
         "regularities": _regularities(regularities),
+        "simplify": simplify,
         "outliers": outliers,
         "sigma": length_of(sigma),
         "loss": loss,

@@ -24,6 +24,7 @@ WORDS = (
         r"--\1 \2",
     ),
     (r"^release\b", "--dxf-release"),
+    (r"^simplify\b", "--simplify"),
     (r"sort them with order_points, or read them with unordered=True", "say --unordered"),
     (r"\bclosed=True or closed=False\b", "--closed or --open"),
     (r"\bdpi, pixels per inch, or scale\b", "--dpi, --width or --scale"),

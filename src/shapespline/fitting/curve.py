@@ -41,6 +41,7 @@ def fit_curve(
     symmetric: bool = False,
     character: Character = "fewest",
     regularities: str | Sequence[str] | None = "auto",
+    simplify: bool = False,
     effort: Effort = "balanced",
     weights: ArrayLike | None = None,
     sigma: ArrayLike | None = None,
@@ -104,6 +105,9 @@ def fit_curve(
         "rotation", "mirror", "axis-parallel", "parallel", "perpendicular", "concentric",
         "equal-radius", "collinear"; among the outlines of a shape also "equal-copies" and
         "equal-spacing"; all of these, none, or some. ``fit.regularities`` lists them.
+    simplify : bool
+        With "drawn", leave out features that the tolerance does not need: a fillet becomes a
+        corner, an arc a line; equal features stay equal.
     effort : {"fast", "balanced", "smallest"}
         How long to search.
     weights : array_like, shape (n,), optional
@@ -174,6 +178,7 @@ def fit_curve(
         symmetric=symmetric,
         character=character,
         regularities=regularities,
+        simplify=simplify,
         effort=effort,
         weights=weights,
         sigma=sigma,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn import DrawnArc, DrawnLine, FreeRun, as_drawn
+from shapespline.engines.drawn import DrawnArc, DrawnLine, FreeRun, as_drawn, simplified
 from shapespline.fitting.choose import DRAWN
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.verify import Candidate
@@ -38,7 +38,7 @@ class DrawnPieces:
     shown: Resolution | None = None
 
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
-        """One curve, if the data tell of lines and arcs."""
+        """One curve, if the data tell of lines and arcs; a simpler one too, if asked for."""
         contour, style = problem.contour, problem.request.style
         within = problem.tolerance if self.shown is None else self.shown.band
         normalized = problem.ordered
@@ -55,18 +55,33 @@ class DrawnPieces:
         runs = any(isinstance(part, FreeRun) for part in found.parts)
         if runs and self.shown is not None and not self.shown.clean:
             return  # noise between them is smoothed with the rest
-        pieces, regularities = self._pieces(problem, found, within * scale, monitor)
-        if not pieces:
+        candidate = self._candidate(problem, found, within, monitor)
+        if candidate is None or not (self.shown is None or self._explains(candidate, problem)):
             return
-        candidate = Candidate(
+        yield candidate
+        if style.simplify:
+            measured = two_sided_distance(joined(candidate.pieces, style.degree), problem.contour)
+            left = within - measured.hausdorff_distance
+            simpler = simplified(found, left * scale) if left > 0 else found
+            if simpler is not found:
+                other = self._candidate(problem, simpler, within, monitor)
+                if other is not None:
+                    yield other
+
+    def _candidate(
+        self, problem: Problem, found: Drawn, within: float, monitor: Monitor
+    ) -> Candidate | None:
+        """Parts as pieces; None where a run was not fitted."""
+        normalized = problem.ordered
+        pieces, kept = self._pieces(problem, found, within * normalized.scale, monitor)
+        if not pieces:
+            return None
+        return Candidate(
             method="drawn",
             rank=DRAWN,
             pieces=normalized.restored(pieces),
-            regularities=_in_data(regularities, len(pieces), scale, normalized.reversed),
+            regularities=_in_data(kept, len(pieces), normalized.scale, normalized.reversed),
         )
-        if self.shown is not None and not self._explains(candidate, problem):
-            return
-        yield candidate
 
     def _pieces(
         self, problem: Problem, found: Drawn, within: float, monitor: Monitor

@@ -43,7 +43,7 @@ class Style:
     """How the curve is made: degree, form and corners (a word, or indices of the contour).
 
     ``character`` says whether structure comes before few points, ``regularities`` which may be
-    taken then.
+    taken then, ``simplify`` whether features below the tolerance are left out.
     """
 
     degree: int = 3
@@ -51,6 +51,7 @@ class Style:
     corners: CornerChoice | IntArray | None = "auto"
     character: Character = "fewest"
     regularities: tuple[str, ...] = NAMES
+    simplify: bool = False
 
     @property
     def free(self) -> bool:

@@ -318,7 +318,12 @@ def _style(settings: Settings, contour: Contour) -> Style:
     names = settings.regularities
     names = NAMES if names == "auto" else () if names is None else tuple(names)
     return Style(
-        settings.degree, settings.form, _corners(settings, contour), settings.character, names
+        settings.degree,
+        settings.form,
+        _corners(settings, contour),
+        settings.character,
+        names,
+        settings.simplify,
     )
 
 

@@ -65,6 +65,7 @@ class Settings:
     symmetric: bool = False
     character: Character = "fewest"
     regularities: str | Sequence[str] | None = "auto"
+    simplify: bool = False
     effort: Effort = "balanced"
     weights: ArrayLike | None = None
     sigma: ArrayLike | None = None
@@ -85,7 +86,7 @@ class Settings:
             ("character", Character),
         ):
             checked_choice(name, getattr(self, name), get_args(words))
-        for name in ("symmetric", "outliers"):
+        for name in ("symmetric", "simplify", "outliers"):
             set_(self, name, checked_flag(name, getattr(self, name)))
         set_(self, "time_limit", checked_time_limit(self.time_limit))
         set_(self, "regularities", _regularities(self.regularities))
@@ -173,6 +174,10 @@ class Settings:
 
     def _check_drawn(self) -> None:
         """Raise if the shape cannot be given as it was drawn beside the other options."""
+        if self.simplify and (self.character == "fewest" or self.tolerance is None):
+            raise InvalidInputError(
+                "simplify acts with character='drawn' within a tolerance: give both"
+            )
         if self.character == "fewest":
             if self.regularities != "auto":
                 raise InvalidInputError("regularities act with character='drawn' only: say it")

@@ -47,6 +47,7 @@ def fit_shape(
     symmetric: bool = False,
     character: Character = "fewest",
     regularities: str | Sequence[str] | None = "auto",
+    simplify: bool = False,
     outliers: bool = False,
     sigma: ArrayLike | None = None,
     loss: Loss | None = None,
@@ -67,7 +68,7 @@ def fit_shape(
     n_control_points : int, optional
         Number of control points of each curve; chosen for each contour when neither is given.
     degree, corners, form, effort, method, callback, time_limit, ends, symmetric, character,
-    regularities, outliers
+    regularities, simplify, outliers
         See `fit_curve`; the limit is that of each contour.
     sigma, loss
         See `fit_curve`; of several contours a length, the error of all points.
@@ -110,6 +111,7 @@ def fit_shape(
         symmetric=symmetric,
         character=character,
         regularities=regularities,
+        simplify=simplify,
         effort=effort,
         outliers=outliers,
         sigma=sigma,

@@ -149,3 +149,23 @@ def test_settings_survive_a_dictionary_and_bad_ones_are_refused():
     ):
         with pytest.raises(ss.InvalidInputError, match=words):
             Settings(**{"tolerance": 0.1} | options)
+
+
+def test_features_below_the_tolerance_are_left_out_on_request_and_never_bent():
+    outline = rounded_box()  # a fillet is 4.97 from its corner, its chord 3.51 from it
+    asked = {"closed": True, "character": "drawn"}
+    plain = ss.fit_curve(outline, tolerance=5.2, **asked)
+    assert sorted(piece.kind for piece in plain.pieces) == 4 * ["arc"] + 4 * ["line"]
+    sharp = checked(ss.fit_curve(outline, tolerance=5.2, simplify=True, **asked), 5.2)
+    assert [piece.kind for piece in sharp.pieces] == 4 * ["line"]
+    corners = np.array([piece.control_points[0] for piece in sharp.pieces])
+    assert len(set(corners[:, 0])) == len(set(corners[:, 1])) == 2  # level to the bit
+    assert np.abs(np.abs(corners) - (50, 30)).max() < 0.01
+    assert {one.name for one in sharp.regularities} >= {"axis-parallel"}
+    assert all(0 <= k < 4 for one in sharp.regularities for k in one.pieces)
+    chamfered = checked(ss.fit_curve(outline, tolerance=4.0, simplify=True, **asked), 4.0)
+    assert [piece.kind for piece in chamfered.pieces] == 8 * ["line"]
+    kept = ss.fit_curve(outline, tolerance=3.0, simplify=True, **asked)
+    assert [piece.kind for piece in kept.pieces] == [piece.kind for piece in plain.pieces]
+    with pytest.raises(ss.InvalidInputError, match="simplify acts with character='drawn'"):
+        ss.fit_curve(outline, closed=True, tolerance=0.5, character="fewest", simplify=True)

@@ -5,6 +5,7 @@ from shapespline.engines.drawn.engine import as_drawn
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES
+from shapespline.engines.drawn.simplify import simplified
 
 __all__ = [
     "NAMES",
@@ -16,4 +17,5 @@ __all__ = [
     "Observed",
     "as_drawn",
     "repeated_outlines",
+    "simplified",
 ]
