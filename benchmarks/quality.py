@@ -234,14 +234,16 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--form", default="pieces")
     parser.add_argument("--corners", default="auto")
     parser.add_argument("--effort", default="balanced")
+    parser.add_argument("--character", choices=["drawn", "fewest"], help="what --pin holds: fewest")
     chosen = parser.parse_args(arguments)
     if chosen.pin:
-        rows = run(list(own_corpus()), peers=False, n_jobs=chosen.jobs)
+        rows = run(list(own_corpus()), peers=False, n_jobs=chosen.jobs, character="fewest")
         sizes.pin({(row.name, row.percent): row.n_points for row in rows})
         return
     large = chosen.all or chosen.every
     outlines = list(large_corpus() if large else own_corpus())[:: chosen.every or 1]
-    options = {"form": chosen.form, "corners": chosen.corners, "effort": chosen.effort}
+    names = ("form", "corners", "effort", "character")
+    options = {name: getattr(chosen, name) for name in names}
     print(f"## {len(outlines)} outlines, {options}\n")
     rows = run(outlines, peers=not chosen.no_peers, n_jobs=chosen.jobs, **options)
     report(rows)

@@ -30,6 +30,7 @@ DATA = {
     "estimate, weighted": (SHAKEN, {"weights": np.ones(len(ARCH))}),
     "estimate, measured": (SHAKEN, {"sigma": 0.05}),
 }
+STRUCTURE = ("regularities", "simplify")
 LEAST_SQUARES = ("estimate, weighted", "estimate, measured")
 WEIGHTS = np.where(np.arange(len(ARCH)) % 40 == 7, 50.0, 1.0)
 # Option -> a value that is not its default.
@@ -42,7 +43,7 @@ OPTIONS = {
     "through": [60],
     "symmetric": True,
     "effort": "fast",
-    "character": "drawn",
+    "character": "fewest",
     "regularities": None,
     "simplify": True,
     "weights": WEIGHTS,
@@ -92,18 +93,16 @@ EXPECTED = {
     # What least squares make has no lines and arcs; noise between those is smoothed with the rest.
     **dict.fromkeys(
         [
-            *(
-                ("character", goal)
-                for goal in ("of size", "estimate, weighted", "estimate, measured")
-            ),
-            *(("character", goal) for goal in DATA if goal.endswith("one spline")),
-            # Beside character="drawn" only.
-            *((name, goal) for name in ("regularities", "simplify") for goal in DATA),
+            *((name, goal) for name in STRUCTURE for goal in ("of size", *LEAST_SQUARES)),
+            *((name, goal) for name in STRUCTURE for goal in DATA if goal.endswith("one spline")),
+            *(("simplify", goal) for goal in DATA if goal.startswith("estimate")),
         ],
         REFUSED,
     ),
     # An arch of half an ellipse has none either: test_drawn.py shows where it acts.
-    **{("character", goal): HOLDS for goal in ("within", "estimate, clean", "estimate, noisy")},
+    **{("regularities", goal): HOLDS for goal in ("within", "estimate, clean", "estimate, noisy")},
+    **{("character", goal): HOLDS for goal in DATA},
+    ("simplify", "within"): HOLDS,
     # Nothing is left to search for: least squares of a size that a criterion chose.
     ("effort", "estimate, noisy, one spline"): HOLDS,
 }
@@ -173,7 +172,6 @@ ACT = {
         distance_to_curve(points[60:61], fit.curve, 1e-3)[0] < 1e-12
     ),
     "effort": lambda fit, points, goal: not same(fit, plain(goal)),
-    "character": lambda fit, points, goal: fit.method == "drawn",
     "weights": heavy_points_are_nearer,
     "sigma": heavy_points_are_nearer,
     "loss": lambda fit, points, goal: not same(fit, plain(goal)),

@@ -18,7 +18,9 @@ BOUNDS = [size for size in SIZES if size.most is not None and "alone" not in siz
 def test_no_more_points_than_the_bound(outline, size):
     contour = outline(size.outline)
     tolerance = tolerance_length(f"{size.percent}%", contour)
-    found = fit_curve(contour, tolerance=tolerance, form=size.form, corners=size.corners)
+    found = fit_curve(
+        contour, tolerance=tolerance, form=size.form, corners=size.corners, character="fewest"
+    )
     assert checked(found, tolerance).n_stored_points <= size.most
 
 
@@ -29,7 +31,7 @@ def test_the_promise_and_the_sizes_hold_on_every_outline_of_the_corpus(all_outli
     ratios = {}
     for name, contour in all_outlines:
         tolerance = tolerance_length(f"{percent}%", contour)
-        fit = checked(fit_curve(contour, tolerance=tolerance), tolerance)
+        fit = checked(fit_curve(contour, tolerance=tolerance, character="fewest"), tolerance)
         ratios[name] = fit.n_stored_points / today[name]
     assert len(ratios) == len(today)
     # The search is local: another compiler may find other optima, on the whole as good ones.

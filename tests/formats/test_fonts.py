@@ -25,7 +25,7 @@ STEM = [(600.0, 0.0), (700.0, 0.0), (700.0, 700.0), (600.0, 700.0)]
 def ring():
     outlines = [300 + 250 * CIRCLE, 300 + 150 * CIRCLE, np.array(STEM)]
     shape = ss.Shape([ss.Contour(points, closed=True) for points in outlines], [-1, 0, -1])
-    return ss.fit_shape(shape, tolerance=0.5)
+    return ss.fit_shape(shape, tolerance=0.5, character="fewest")
 
 
 class Quadratic:

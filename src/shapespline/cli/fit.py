@@ -213,23 +213,24 @@ def fit(
         ),
     ] = False,
     character: Annotated[
-        Literal["fewest", "drawn"],
+        Literal["drawn", "fewest"] | None,
         Option(
-            help="The fewest points, or lines, arcs and corners as they were drawn first.",
+            help="Lines, arcs and corners as they were drawn first (where nothing speaks against"
+            " it), or the fewest points.",
             panel=FIT,
         ),
-    ] = "fewest",
+    ] = None,
     regularities: Annotated[
         str,
         Option(
-            help="With --character drawn, what may be kept exactly: auto, none, or names such as"
+            help="As it was drawn, what may be kept exactly: auto, none, or names such as"
             " axis-parallel,tangent.",
             panel=FIT,
         ),
     ] = "auto",
     simplify: Annotated[
         bool,
-        typer.Option("--simplify", help="Drawn, without details below -t.", rich_help_panel=FIT),
+        Option("--simplify", help="Drawn, without details below -t.", panel=FIT),
     ] = False,
     outliers: Annotated[
         bool,

@@ -39,7 +39,7 @@ def fit_curve(
     end_tangents: tuple[ArrayLike | None, ArrayLike | None] | None = None,
     through: ArrayLike | None = None,
     symmetric: bool = False,
-    character: Character = "fewest",
+    character: Character | None = None,
     regularities: str | Sequence[str] | None = "auto",
     simplify: bool = False,
     effort: Effort = "balanced",
@@ -95,13 +95,14 @@ def fit_curve(
         Whether a mirror symmetry that a closed outline has within a part of the tolerance is kept
         exactly: one half is fitted and reflected, which may take some points more. Without, that
         is done where it takes none, unless the search is to be fast.
-    character : {"fewest", "drawn"}
-        The fewest points whatever was drawn; or the shape as it was drawn: lines, circular arcs and
-        whole circles where the data show them, corners where they meet, and the tolerance spent on
-        the rest. What cannot be told that way, or would not keep the tolerance, is as with
-        "fewest". In pieces, with corners "auto".
+    character : {"drawn", "fewest"}, optional
+        The shape as it was drawn: lines, circular arcs and whole circles where the data show them,
+        corners where they meet, and the tolerance spent on the rest; what cannot be told that way,
+        or would not keep the tolerance, is as with "fewest", the fewest points whatever was drawn.
+        "drawn" where it acts if nothing is said: in pieces of degree 3 or more with corners "auto",
+        nothing kept exactly by other options.
     regularities : "auto", None or sequence of str
-        With "drawn", what lines and arcs may keep exactly where the data allow it: "tangent",
+        As it was drawn, what lines and arcs may keep exactly where the data allow it: "tangent",
         "rotation", "mirror", "axis-parallel", "parallel", "perpendicular", "concentric",
         "equal-radius", "collinear"; among the outlines of a shape also "equal-copies" and
         "equal-spacing"; all of these, none, or some. ``fit.regularities`` lists them.

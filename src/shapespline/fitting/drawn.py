@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -99,6 +99,7 @@ class DrawnPieces:
             else:
                 run = Contour.silently(part.points, False)
                 asked = problem.request.part(run, within, part.tangents)
+                asked = replace(asked, is_part=False)  # its tangents are its neighbours'
                 fitted = self.ask(Problem(asked), monitor)
                 if not fitted.kept or fitted.tangent_error:
                     return (), []

@@ -59,6 +59,8 @@ def fit_large(
 ) -> LargeFit:
     """Fit a curve to one outline of any number of points, without holding them in memory.
 
+    The fewest points are looked for (``character="fewest"`` of `fit_curve`).
+
     Parameters
     ----------
     points : array-like, shape (n, 2)

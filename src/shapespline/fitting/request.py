@@ -321,7 +321,7 @@ def _style(settings: Settings, contour: Contour) -> Style:
         settings.degree,
         settings.form,
         _corners(settings, contour),
-        settings.character,
+        "drawn" if settings.as_drawn else "fewest",
         names,
         settings.simplify,
     )

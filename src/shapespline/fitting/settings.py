@@ -63,7 +63,7 @@ class Settings:
     end_tangents: tuple[ArrayLike | None, ArrayLike | None] | None = None
     through: ArrayLike | None = None
     symmetric: bool = False
-    character: Character = "fewest"
+    character: Character | None = None
     regularities: str | Sequence[str] | None = "auto"
     simplify: bool = False
     effort: Effort = "balanced"
@@ -83,9 +83,10 @@ class Settings:
             ("ends", Ends),
             ("effort", Effort),
             ("knots", Knots),
-            ("character", Character),
         ):
             checked_choice(name, getattr(self, name), get_args(words))
+        if self.character is not None:
+            checked_choice("character", self.character, get_args(Character))
         for name in ("symmetric", "simplify", "outliers"):
             set_(self, name, checked_flag(name, getattr(self, name)))
         set_(self, "time_limit", checked_time_limit(self.time_limit))
@@ -178,29 +179,41 @@ class Settings:
             raise InvalidInputError(
                 "simplify acts with character='drawn' within a tolerance: give both"
             )
-        if self.character == "fewest":
-            if self.regularities != "auto":
-                raise InvalidInputError("regularities act with character='drawn' only: say it")
+        if self.character == "fewest" and self.regularities != "auto":
+            raise InvalidInputError("regularities act with character='drawn' only: say it")
+        asked = self.simplify or self.regularities != "auto"
+        if self.character == "fewest" or (self.character is None and not asked):
             return
+        said = "character='drawn'" if self.character else "simplify"
+        said = said if self.character or self.simplify else "regularities"
         if self.degree < 3:
             raise InvalidInputError(
-                f"degree must be 3 or more for character='drawn', got {self.degree}: arcs stand in"
-                " the curve as cubics"
+                f"degree must be 3 or more for {said}, got {self.degree}: arcs stand in the curve"
+                " as cubics"
             )
         if self._one_spline:
             raise InvalidInputError(
-                "character='drawn' does not act where one spline is made: leave form='spline',"
+                f"{said} cannot act where one spline is made: leave form='spline',"
                 " n_control_points, weights, sigma and loss out"
             )
         if self.corners is None or not isinstance(self.corners, str) or self.corners == "free":
             raise InvalidInputError(
-                "character='drawn' finds corners itself: leave corners='auto' as it is"
+                f"{said} cannot act where corners are given: leave corners='auto' as it is"
             )
         if self._has("end_tangents", "through", "symmetric") or self.ends == "fixed":
             raise InvalidInputError(
-                "character='drawn' keeps what was drawn: leave end_tangents, through, symmetric"
-                " and ends='fixed' out"
+                f"{said} cannot act where something else is kept: leave end_tangents, through,"
+                " symmetric and ends='fixed' out"
             )
+
+    @property
+    def as_drawn(self) -> bool:
+        """Whether lines and arcs come first: where that is said, or nothing speaks against it."""
+        if self.character is not None:
+            return self.character == "drawn"
+        kept = self._has("end_tangents", "through", "symmetric") or self.ends == "fixed"
+        finds_corners = isinstance(self.corners, str) and self.corners == "auto"
+        return self.degree >= 3 and finds_corners and not (self._one_spline or kept)
 
     @property
     def _one_spline(self) -> bool:

@@ -45,7 +45,7 @@ def fit_shape(
     time_limit: float | None = None,
     ends: Ends = "free",
     symmetric: bool = False,
-    character: Character = "fewest",
+    character: Character | None = None,
     regularities: str | Sequence[str] | None = "auto",
     simplify: bool = False,
     outliers: bool = False,

@@ -50,11 +50,12 @@ def exact_distance(fit, points):
 
 
 def test_a_slot_is_lines_and_tangent_arcs():
-    fit = checked(ss.fit_curve(slot(), closed=True, tolerance=0.005, form="arcs"), 0.005)
+    options = {"closed": True, "tolerance": 0.005, "character": "fewest"}
+    fit = checked(ss.fit_curve(slot(), form="arcs", **options), 0.005)
     assert kinds(fit) == {"line", "arc"}
     assert sum(piece.kind == "line" for piece in fit.pieces) == 2
     # Fewer than the biarcs of a curve that was fitted for itself.
-    curve = ss.fit_curve(slot(), closed=True, tolerance=0.005)
+    curve = ss.fit_curve(slot(), **options)
     assert len(fit.pieces) < ss.geometry.arc_polyline(curve.spline, 0.005 / 4).n_segments
     for before, after in zip(fit.pieces, [*fit.pieces[1:], fit.pieces[0]], strict=True):
         assert (before.control_points[-1] == after.control_points[0]).all()

@@ -124,6 +124,41 @@ def test_a_tolerance_below_the_noise_falls_back():
     assert checked(ss.fit_curve(shaken, closed=True, tolerance=0.2, character="drawn"), 0.2)
 
 
+def test_drawn_is_the_default_where_it_acts():
+    from shapespline.fitting import Settings
+
+    fit = ss.fit_curve(slot(400), closed=True, tolerance=0.1)
+    assert fit == ss.fit_curve(slot(400), closed=True, tolerance=0.1, character="drawn")
+    assert fit.method == "drawn"
+    for options in (
+        {"corners": "free"},
+        {"corners": [3]},
+        {"form": "spline"},
+        {"weights": np.ones(9)},
+        {"ends": "fixed"},
+        {"through": [3]},
+        {"degree": 2},
+        {"character": "fewest"},
+    ):
+        assert not Settings(tolerance=0.1, **options).as_drawn
+    assert Settings(tolerance=0.1, form="arcs", regularities=None).as_drawn
+
+
+def test_runs_between_elements_keep_their_tangents_within_a_loose_tolerance():
+    # A free-form bend of 0.2 in the side of a square: the loose tolerance would make it a line.
+    x = np.linspace(0, 10, 200)
+    bend = np.column_stack([x, 0.2 * np.sin(np.pi * np.clip((x - 4) / 2, 0, 1)) ** 3])
+    t = np.linspace(0, 10, 200)[1:-1]
+    rest = [
+        np.column_stack(side) for side in ((10 + 0 * t, t), (10 - t, 10 + 0 * t), (0 * t, 10 - t))
+    ]
+    square = np.concatenate([bend, *rest])
+    for tolerance in (0.02, 0.3):
+        fit = checked(ss.fit_curve(square, closed=True, tolerance=tolerance), tolerance)
+        assert fit.method == "drawn"
+        assert sum(piece.kind == "line" for piece in fit.pieces) >= 5
+
+
 def test_settings_survive_a_dictionary_and_bad_ones_are_refused():
     from shapespline.fitting import Request, Settings
 
@@ -137,13 +172,16 @@ def test_settings_survive_a_dictionary_and_bad_ones_are_refused():
     assert (again.style.character, again.style.regularities) == ("drawn", ("mirror",))
     for options, words in (
         ({"character": "sketched"}, "character must be one of drawn, fewest"),
-        ({"character": "drawn", "form": "spline"}, "does not act where one spline"),
+        ({"character": "drawn", "form": "spline"}, "cannot act where one spline"),
         ({"character": "drawn", "tolerance": None, "sigma": 0.1}, "leave .* sigma and loss out"),
-        ({"character": "drawn", "corners": "free"}, "finds corners itself"),
-        ({"character": "drawn", "symmetric": True}, "keeps what was drawn"),
-        ({"character": "drawn", "ends": "fixed"}, "keeps what was drawn"),
+        ({"character": "drawn", "corners": "free"}, "where corners are given"),
+        ({"character": "drawn", "symmetric": True}, "cannot act where something else is kept"),
+        ({"regularities": "mirror", "ends": "fixed"}, "regularities cannot act"),
         ({"character": "drawn", "degree": 2}, "degree must be 3 or more"),
-        ({"regularities": None}, "regularities act with character='drawn' only"),
+        (
+            {"character": "fewest", "regularities": None},
+            "regularities act with character='drawn' only",
+        ),
         ({"character": "drawn", "regularities": "round"}, "some of tangent, rotation"),
         ({"character": "drawn", "regularities": 3}, "some of tangent, rotation"),
     ):
