@@ -117,8 +117,8 @@ def main() -> None:
     up = [(here, there) for here, there in arrows if RANKS.get(here, 0) < RANKS.get(there, 0)]
     print(f"{len(RANKS)} rooms and the face, {len(arrows)} arrows between them, {len(up)} run up")
     points = outline()
-    ss.fit_curve(points, closed=True, tolerance=0.01)  # everything is loaded
-    way = way_of(lambda: ss.fit_curve(points, closed=True, tolerance=0.01))
+    ss.fit_curve(points, closed=True, tolerance=0.01, character="fewest")  # everything is loaded
+    way = way_of(lambda: ss.fit_curve(points, closed=True, tolerance=0.01, character="fewest"))
     rooms = sorted({room_of(module) for module in way.modules}, key=lambda room: RANKS.get(room, 0))
     print(f"{len(way.modules)} modules of {len(rooms)} rooms: {', '.join(rooms)}")
     print(f"{sum(way.calls.values())} calls from one module to another by {len(way.calls)} arrows")

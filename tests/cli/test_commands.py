@@ -67,11 +67,12 @@ def test_a_drawing_in_svg_becomes_a_dxf_in_its_unit(shapespline, tmp_path):
     drawing = ss.read(output)
     assert (drawing.unit, drawing.parents) == ("mm", (-1, 0))
     assert ss.compare(drawing, ss.read(source)).hausdorff_distance < 1e-6  # circles, as drawn
-    fewest = ("-t", 0.1, "--character", "fewest", "--unit", "in")
+    fewest = ("-t", 0.1, "--character", "fewest")
     assert shapespline("fit", source, "-o", output, *fewest)[0] == 0
     # Samples are off by 2 % of the tolerance at most, and there are 20 000 of those that compare.
     found = ss.compare(ss.read(output), ss.read(source))
     assert 0.01 < found.hausdorff_distance <= 0.1 * 1.02 + found.spacing**2
+    assert shapespline("fit", source, "-o", output, "-t", 0.005, "--unit", "in")[0] == 0
     assert ss.read(output).unit == "in"
     assert shapespline("convert", source, "-o", output)[0] == 0
     assert ss.compare(ss.read(output), ss.read(source)).hausdorff_distance < 1e-8

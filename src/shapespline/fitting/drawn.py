@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -99,9 +99,11 @@ class DrawnPieces:
             else:
                 run = Contour.silently(part.points, False)
                 asked = problem.request.part(run, within, part.tangents)
-                asked = replace(asked, is_part=False)  # its tangents are its neighbours'
                 fitted = self.ask(Problem(asked), monitor)
-                if not fitted.kept or fitted.tangent_error:
+                if fitted.tangent_error:  # a run so short that it turns within the tolerance
+                    asked = problem.request.part(run, within)
+                    fitted = self.ask(Problem(asked), monitor)
+                if not fitted.kept:
                     return (), []
                 pieces += fitted.fit.pieces
         kept = [
