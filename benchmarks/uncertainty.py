@@ -1,4 +1,4 @@
-"""How often bands hold the truth: ``python -m benchmarks.uncertainty``, three minutes."""
+"""How often bands hold the truth: ``python -m benchmarks.uncertainty``, some minutes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from shapespline.geometry import nearest
 from shapespline.solvers import Limits
 from shapespline.values import periodic_knots
 
-REPETITIONS = 2500
+REPETITIONS = 1000
 LIMITS = Limits(max_iterations=50, relative_decrease=1e-8)
 N_POINTS, RADIUS = 150, 10.0
 
@@ -68,7 +68,7 @@ def chosen(sigma: float) -> tuple[float, float, float]:
     """Coverage with a size that minimises chi squared and 3.5 a control point, from 8 to 40."""
     dense, rng = flower(20_000), np.random.default_rng(0)
     found, sizes = [], []
-    for _ in range(REPETITIONS // 25):
+    for _ in range(REPETITIONS // 10):
         contour = ss.Contour(flower(N_POINTS) + rng.normal(0, sigma, (N_POINTS, 2)), True)
         fits = [
             ss.optimize(

@@ -24,7 +24,8 @@ It is one object::
                      others are
         outliers     indices of the points left out
         regularities {name, pieces: indices of sections, off, order}; not there if there are none
-        uncertainty  null, or covariance of the control points, chi_squared, degrees_of_freedom
+        uncertainty  null, or covariance of the control points, chi_squared, degrees_of_freedom,
+                     precisions
 
 Numbers are written with the shortest digits that read back to the same double.
 """

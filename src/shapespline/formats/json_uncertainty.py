@@ -15,7 +15,7 @@ from shapespline.formats.json_values import (
 )
 from shapespline.values import Uncertainty
 
-FIELDS = ("covariance", "chi_squared", "degrees_of_freedom")
+FIELDS = ("covariance", "chi_squared", "degrees_of_freedom", "precisions")
 
 
 def uncertainty_document(known: Uncertainty | None) -> dict[str, Any] | None:
@@ -26,6 +26,7 @@ def uncertainty_document(known: Uncertainty | None) -> dict[str, Any] | None:
         "covariance": known.covariance.tolist(),
         "chi_squared": known.chi_squared,
         "degrees_of_freedom": known.degrees_of_freedom,
+        "precisions": known.precisions.tolist(),
     }
 
 
@@ -44,4 +45,5 @@ def checked_uncertainty(value: object, where: str) -> Uncertainty | None:
         degrees_of_freedom=checked_number(
             fields["degrees_of_freedom"], f"{where}.degrees_of_freedom"
         ),
+        precisions=checked_numbers(fields["precisions"], f"{where}.precisions"),
     )

@@ -1,6 +1,6 @@
 """Geometry: pure functions on values."""
 
-from shapespline.geometry.bands import confidence_band, curve_motion, unit_normals
+from shapespline.geometry.bands import confidence_band
 from shapespline.geometry.biarcs import arc_polyline
 from shapespline.geometry.comparison import Comparison, Curves, compare
 from shapespline.geometry.distances import (
@@ -25,6 +25,7 @@ from shapespline.geometry.moving import (
 )
 from shapespline.geometry.nearest import nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
+from shapespline.geometry.normal_motion import curve_motion, unit_normals
 from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
 from shapespline.geometry.polygons import Drawable, as_drawing, polygon_drawing

@@ -2,7 +2,8 @@
 
 The curve moves along its normal n by n' B(u) dP, a linear function of the control points: its
 variance is that of a few neighbouring ones. A pointwise band is as wide as a normal quantile says.
-For the whole curve at once Weyl's tube formula gives the quantile of the largest deviation.
+For the whole curve at once Weyl's tube formula gives the quantile of the largest deviation. Both
+are stretched by what the second order adds (`band_draws`).
 
 References
 ----------
@@ -12,55 +13,23 @@ References
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline import _kernels
 from shapespline.errors import InvalidInputError
+from shapespline.geometry.band_draws import second_order_stretch
+from shapespline.geometry.normal_motion import CurveMotion, curve_motion, unit_normals
 from shapespline.validation import float_array, is_number, whole_number
 from shapespline.values import Band
 
 if TYPE_CHECKING:
-    from shapespline.typing import ArrayLike, FloatArray, IntArray
+    from shapespline.typing import ArrayLike, FloatArray
     from shapespline.values import BSplineCurve, Uncertainty
 
 # Places at which the tube formula follows the curve: a control point has so many.
 _TUBE_STEPS = 16
 _SMALLEST = 1e-300
-
-
-class CurveMotion(NamedTuple):
-    """How a curve moves along directions with its control points.
-
-    ``gains[k, i]`` is the part of coordinate ``columns[k, i]`` of the control points (x and y in
-    turn) in the motion at place k.
-    """
-
-    gains: FloatArray
-    columns: IntArray
-
-
-def unit_normals(spline: BSplineCurve, parameters: FloatArray) -> FloatArray:
-    """Normals of length 1 to the left of a curve, (k, 2); zero where it stands still."""
-    tangents = spline(parameters, derivative=1)
-    speed = np.hypot(tangents[:, 0], tangents[:, 1])[:, None]
-    turned = np.column_stack([-tangents[:, 1], tangents[:, 0]])
-    return np.divide(turned, speed, out=np.zeros_like(turned), where=speed > _SMALLEST)
-
-
-def curve_motion(
-    spline: BSplineCurve, parameters: FloatArray, directions: FloatArray
-) -> CurveMotion:
-    """The control points that move a curve along directions (k, 2) at places."""
-    degree, count = spline.degree, spline.n_control_points
-    values = np.empty((len(parameters), degree + 1))
-    first = np.empty(len(parameters), dtype=np.int64)
-    _kernels.basis_functions(spline.knots, degree, spline.periodic, parameters, values, first)
-    index = (first[:, None] + np.arange(degree + 1)) % count
-    columns = (2 * index[:, :, None] + np.arange(2)).reshape(len(parameters), -1)
-    gains = (values[:, :, None] * directions[:, None, :]).reshape(len(parameters), -1)
-    return CurveMotion(gains, columns)
 
 
 def confidence_band(
@@ -91,8 +60,8 @@ def confidence_band(
 
     Notes
     -----
-    First order in the noise: for errors small beside the radius of curvature. The size of the curve
-    is taken as given; choosing it from the same points makes bands too narrow.
+    Second order in the noise. The size of the curve is taken as given; choosing it from the same
+    points makes bands too narrow.
     """
     if not (is_number(level) and 0.0 < level < 1.0):
         raise InvalidInputError(f"level must be between 0 and 1, got {level!r}; try 0.95")
@@ -103,6 +72,7 @@ def confidence_band(
     factor = _pointwise(level)
     if simultaneous:
         factor = _simultaneous(spline, uncertainty.covariance, level)
+    factor *= second_order_stretch(spline, uncertainty, level, simultaneous)
     return Band(at, spline(at), normals, factor * deviation, float(level), simultaneous)
 
 

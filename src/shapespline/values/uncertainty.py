@@ -23,11 +23,15 @@ class Uncertainty:
     degrees_of_freedom : float
         Points less the parameters as they act: the trace of the matrix that takes the points to
         the curve. Control points that slide along a straight run count less than one each.
+    precisions : ndarray, shape (parts * spans,)
+        Every span between breakpoints is divided into so many equal parts. Of each part: the sum
+        over its points of one over the variance of their normal distance.
     """
 
     covariance: FloatArray = field(repr=False)
     chi_squared: float
     degrees_of_freedom: float
+    precisions: FloatArray = field(repr=False)
 
 
 class Band(NamedTuple):

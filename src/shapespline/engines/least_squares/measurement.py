@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 
 # The fit is repeated until no weight changes by more than a part, or so many times.
 _ROUNDS, _STILL = 30, 1e-3
+# Parts of a span whose points are counted together in what tells of the second order (LSQ-09).
+_PARTS = 12
 # Tukey's loss forgets points: it begins from rounds of Huber's.
 _HUBER_ROUNDS = 4
 
@@ -284,7 +286,19 @@ def _uncertainty(
         covariance=covariance,
         chi_squared=chi_squared,
         degrees_of_freedom=n - acting,
+        precisions=_in_parts(spline, parameters, slope * precision),
     )
+
+
+def _in_parts(spline: BSplineCurve, parameters: FloatArray, weights: FloatArray) -> FloatArray:
+    """Sum of the weights of the points in each part of a span between breakpoints."""
+    breaks = spline.breakpoints
+    edges = np.linspace(breaks[:-1], breaks[1:], _PARTS, endpoint=False, axis=1).ravel()
+    place = parameters
+    if spline.periodic:
+        place = breaks[0] + np.mod(parameters - breaks[0], breaks[-1] - breaks[0])
+    part = np.maximum(np.searchsorted(edges, place, side="right") - 1, 0)
+    return np.asarray(np.bincount(part, weights, len(edges)), dtype=np.float64)
 
 
 def _tips(covariances: FloatArray | None) -> FloatArray | None:
