@@ -206,11 +206,7 @@ def fit(
     ] = "free",
     symmetric: Annotated[
         bool,
-        Option(
-            "--symmetric",
-            help="Keep a mirror symmetry of closed outlines exactly.",
-            panel=FIT,
-        ),
+        Option("--symmetric", help="Keep a mirror symmetry of closed outlines exactly.", panel=FIT),
     ] = False,
     character: Annotated[
         Literal["drawn", "fewest"] | None,
