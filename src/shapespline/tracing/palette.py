@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.tracing.threads import LACKS, is_thread
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -194,18 +195,43 @@ def _labels(pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray) -> I
     labels = _even_labels(pixels, even, colors)
     where = np.nonzero(~even)
     values = pixels[where].astype(np.float64)
-    labels[where] = _unmixed(values, _nearby(even, labels, len(colors), where), colors)[0]
+    nearby = _nearby(even, labels, len(colors), where)
+    labels[where], _, other, share = _unmixed(values, nearby, colors)
+    may_be = share >= 0.5 - LACKS
+    at = tuple(index[may_be] for index in where)
+    of_thread = _on_threads(pixels, at, colors[labels[at]], colors[other[may_be]])
+    labels[tuple(index[of_thread] for index in at)] = other[may_be][of_thread]
     return labels
+
+
+def _on_threads(
+    pixels: NDArray[np.uint8], at: tuple[IntArray, ...], colors: FloatArray, others: FloatArray
+) -> BoolArray:
+    """Which pixels lie on strokes of another colour about a pixel wide, of which they have less."""
+    offsets = np.arange(-2, 3)
+    height, width = pixels.shape[:2]
+    found = np.zeros(len(colors), dtype=bool)
+    for part in np.array_split(np.arange(len(colors)), len(colors) // 100_000 + 1):
+        row = np.clip(at[0][part, None, None] + offsets[:, None], 0, height - 1)
+        column = np.clip(at[1][part, None, None] + offsets, 0, width - 1)
+        along = others[part] - colors[part]
+        seen = ((pixels[row, column] - colors[part, None, None]) * along[:, None, None]).sum(axis=3)
+        found[part] = is_thread(seen / (along**2).sum(axis=1)[:, None, None])
+    return found
 
 
 def _unmixed(
     values: FloatArray, nearby: BoolArray, colors: FloatArray
-) -> tuple[IntArray, BoolArray]:
-    """The colour of which each value has more, mixed of two with one nearby; which are none."""
+) -> tuple[IntArray, BoolArray, IntArray, FloatArray]:
+    """The colour of which each value has more, mixed of two with one nearby; which are none.
+
+    And the other of the two, with how much of it there is.
+    """
     # Where nothing nearby is even any two may be mixed.
     nearby = nearby | ~nearby.any(axis=1, keepdims=True)
     label = _nearest(values, colors)
     best = np.full(len(values), MIXED**2 * 3)
+    other, least = label.copy(), np.zeros(len(values))
     for pairs in (_nearby_pairs, _pairs_with_one):
         open_values = np.flatnonzero(best == MIXED**2 * 3)
         if len(open_values) == 0:
@@ -218,8 +244,10 @@ def _unmixed(
             off = ((from_a - share[:, None] * along) ** 2).sum(axis=1)
             closer = off < best[own]
             best[own[closer]] = off[closer]
-            label[own[closer]] = np.where(share[closer] < 0.5, a, b)
-    return label, best == MIXED**2 * 3
+            less = share[closer] < 0.5
+            label[own[closer]], other[own[closer]] = np.where(less, a, b), np.where(less, b, a)
+            least[own[closer]] = np.minimum(share[closer], 1.0 - share[closer])
+    return label, best == MIXED**2 * 3, other, least
 
 
 def _nearby_pairs(nearby: BoolArray, a: int, b: int) -> BoolArray:

@@ -48,7 +48,7 @@ def ink_and_threads(field: Field, rows: slice) -> BoolArray:
     for part in np.array_split(np.arange(len(row)), len(row) // 200_000 + 1):
         around = _around(field, rows.start + row[part], column[part])
         was = ink[row[part], column[part]]
-        thread = np.where(was, _is_thread(1.0 - around), _is_thread(around))
+        thread = np.where(was, is_thread(1.0 - around), is_thread(around))
         ink[row[part], column[part]] = was ^ thread
     return ink
 
@@ -61,8 +61,14 @@ def _around(field: Field, row: IntArray, column: IntArray) -> FloatArray:
     )
 
 
-def _is_thread(around: FloatArray) -> BoolArray:
-    """Whether the pixel in the middle lies on a thread, along either axis."""
+def is_thread(around: FloatArray) -> BoolArray:
+    """Whether the pixel in the middle lies on a thread, along either axis.
+
+    Parameters
+    ----------
+    around : ndarray, shape (n, 5, 5)
+        Parts of pixels that are of what a thread is of.
+    """
     return _runs_down(around) | _runs_down(np.swapaxes(around, 1, 2))
 
 
