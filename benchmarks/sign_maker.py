@@ -4,10 +4,10 @@
     python -m benchmarks.sign_maker -o DIR       and the pictures beside what was found, four times
 
 A photograph has twice the pixels and is seen at an angle, out of focus, with the corners darker,
-grain, and JPEG of quality 88. Traced are the dark ink (as it comes) and the colours (``colors=3`` for a
-photograph, "auto" for a rendering). Parts are outlines of the ink that are no holes, of the colours
-areas of those of the print; the truth is counted in the same drawing eight times larger. Colour
-distance: mean absolute difference of the areas to the picture, of 255. Last what the program said.
+grain, and JPEG of quality 88. Traced are the ink (as it comes) and the colours (3 of a photograph,
+"auto" of a rendering). Parts are outlines of the ink that are no holes, of the colours areas of
+those of the print; the truth is counted in the same drawing eight times larger. Colour distance:
+mean absolute difference of the areas to the picture, of 255. Last what the program said.
 """
 
 from __future__ import annotations
