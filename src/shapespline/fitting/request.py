@@ -24,6 +24,7 @@ from shapespline.errors import (
 )
 from shapespline.fitting.goals import Estimate, Goal, OfSize, Style, Within
 from shapespline.fitting.settings import Settings, plain, tolerance_length
+from shapespline.validation import distinct
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
@@ -363,12 +364,12 @@ def _of_contour(name: str, indices: IntArray, contour: Contour) -> IntArray:
         raise InvalidInputError(
             f"{name} must be indices below {contour.n_given}, got {indices.tolist()}"
         )
-    return np.unique(contour.source[indices])
+    return distinct(contour.source[indices])
 
 
 def _at_ends(nodes: IntArray, contour: Contour) -> bool:
     """Whether one of some points is an end of an open contour."""
-    return not contour.closed and bool(np.isin(nodes, (0, len(contour) - 1)).any())
+    return not contour.closed and not {0, len(contour) - 1}.isdisjoint(nodes.tolist())
 
 
 def _unit(vector: FloatArray) -> FloatArray:
