@@ -21,7 +21,7 @@ with tempfile.TemporaryDirectory() as folder:
     size = path.stat().st_size
 found = ss.compare(ss.Drawing([fit]), ss.Drawing([back]))
 
-(axes,) = panels(height=3)
+(axes,) = panels()
 dots(axes, points, 5)
 curves(axes, [back])
 axes.set_title(f"{size} bytes; off by {found.hausdorff_distance:.1g} of a chord of 1")

@@ -33,15 +33,21 @@ def image(name: str) -> Path:
     return DATA / "images" / name
 
 
-def panels(count: int = 1, height: float = 4.2) -> list[Axes]:
-    """Axes side by side that show the plane."""
+def panels(count: int = 1) -> list[Axes]:
+    """Axes side by side that show the plane, four of them as two by two; for a thumbnail, too."""
+    rows = 2 if count == 4 else 1
+    columns, height = count // rows, 4.2 if count < 3 else 3.0
     _, axes = plt.subplots(
-        1, count, figsize=(height * max(1.25, count), height), layout="constrained", squeeze=False
+        rows,
+        columns,
+        figsize=(height * max(1.25, columns), height * rows),
+        layout="constrained",
+        squeeze=False,
     )
-    for one in axes[0]:
+    for one in axes.flat:
         one.set_aspect("equal")
         one.set_axis_off()
-    return axes[0].tolist()
+    return axes.ravel().tolist()
 
 
 def picture(axes: Axes, path: Path) -> None:
