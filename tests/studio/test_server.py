@@ -137,8 +137,24 @@ def test_a_port_that_is_taken_and_addresses_for_everybody_are_refused():
         ss.open_studio("nowhere.png", browser=False)
 
 
+def _long_reading(socket):
+    t = np.linspace(0, 2 * np.pi, 300_000, endpoint=False)
+    text = "".join(f"{x:.5f},{y:.5f}\n" for x, y in zip(np.cos(t), np.sin(5 * t), strict=True))
+    socket.send(packed({"type": "open", "name": "a.csv", "generation": 1}) + text.encode())
+
+
+def _long_fit(socket):
+    socket.send(packed({"type": "example", "id": "scan", "generation": 1}))
+    while unpacked(socket.recv())[0]["type"] != "shape":
+        pass
+    # A tenth of the noise: every point costs; the search would take its minute.
+    settings = {"tolerance": 0.015, "effort": "smallest"}
+    socket.send(packed({"type": "fit", "generation": 2, "settings": settings}))
+
+
 @pytest.mark.slow
-def test_ctrl_c_ends_it_cleanly_and_leaves_nothing_behind(tmp_path):
+@pytest.mark.parametrize("begin", [_long_reading, _long_fit])
+def test_ctrl_c_ends_it_cleanly_and_leaves_nothing_behind(tmp_path, begin):
     connect = pytest.importorskip("websockets.sync.client").connect
     source = Path(ss.__file__).parent.parent
     environment = {**os.environ, "PYTHONPATH": str(source), "TMPDIR": str(tmp_path)}
@@ -158,11 +174,7 @@ def test_ctrl_c_ends_it_cleanly_and_leaves_nothing_behind(tmp_path):
         # A job that is under way does not hold it up, nor is its end an error.
         place = address.removeprefix("http://").partition("/")[0]
         with connect(address.replace("http", "ws") + "socket", origin=f"http://{place}") as socket:
-            t = np.linspace(0, 2 * np.pi, 300_000, endpoint=False)
-            text = "".join(
-                f"{x:.5f},{y:.5f}\n" for x, y in zip(np.cos(t), np.sin(5 * t), strict=True)
-            )
-            socket.send(packed({"type": "open", "name": "a.csv", "generation": 1}) + text.encode())
+            begin(socket)
             while unpacked(socket.recv())[0]["type"] != "progress":
                 pass
             began = time.monotonic()

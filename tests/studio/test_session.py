@@ -2,7 +2,6 @@
 
 import io
 import queue
-import threading
 import time
 
 import numpy as np
@@ -10,14 +9,14 @@ import pytest
 from PIL import Image
 
 import shapespline as ss
-from shapespline.studio import documents
 from shapespline.studio.asked import Asked
 from shapespline.studio.documents import opened
 from shapespline.studio.examples import EXAMPLES, example_bytes
 from shapespline.studio.fits import fitted, splprep_fit, whole
-from shapespline.studio.jobs import Lane, Ticket
+from shapespline.studio.jobs import Cancelled, Lane, Ticket
 from shapespline.studio.messages import packed, unpacked
 from shapespline.studio.outputs import command_line, encoded, python_text, settings_text
+from shapespline.studio.reading import Readers
 from shapespline.studio.session import Session
 from shapespline.studio.sketch import sketch
 
@@ -29,7 +28,10 @@ class Page:
 
     def __init__(self):
         self.heard = queue.Queue()
-        self.session = Session(self.heard.put)
+        self.readers = Readers()
+        # None stands ready before a test needs one.
+        self.readers.prepare = lambda: None
+        self.session = Session(self.heard.put, self.readers)
         self.session.greet()
         assert self.next("hello")
 
@@ -53,6 +55,7 @@ def page():
     made = Page()
     yield made
     made.session.close()
+    made.readers.close()
 
 
 def test_an_example_is_opened_fitted_and_taken_away(page):
@@ -88,27 +91,16 @@ def test_a_newer_fit_ends_the_older(page):
     assert page.session._lanes["a"]._waiting is None
 
 
-def test_a_newer_picture_ends_the_reading_of_the_older(page, monkeypatch):
-    """The reader asks while it reads; what it was asked for is no longer wanted."""
-    began, go_on = threading.Event(), threading.Event()
-    file = io.BytesIO()
-    Image.fromarray(np.kron(np.eye(2, dtype=np.uint8), np.full((20, 20), 255, np.uint8))).save(
-        file, "PNG"
-    )
-    read = documents.read
-
-    def slow(source, *, progress, **options):
-        began.set()
-        assert go_on.wait(10)
-        progress("looking for ink")
-        return read(source, progress=progress, **options)
-
-    monkeypatch.setattr(documents, "read", slow)
-    page.say(file.getvalue(), type="open", name="old.png", generation=1)
-    assert began.wait(10)
-    page.say(file.getvalue(), type="open", name="new.png", generation=2)
-    go_on.set()
-    assert page.next("shape")["generation"] == 2
+def test_reading_says_what_comes_next_and_may_be_ended_there():
+    file, side = io.BytesIO(), np.full((20, 20), 255, np.uint8)
+    Image.fromarray(np.kron(np.eye(2, dtype=np.uint8), side)).save(file, "PNG")
+    said = []
+    opened("a.png", file.getvalue(), {}, said.append)
+    assert said
+    ticket = Ticket(1)
+    ticket.end()
+    with pytest.raises(Cancelled):
+        opened("a.png", file.getvalue(), {}, ticket.say)
 
 
 def test_wrong_settings_are_refused_with_the_programs_sentence(page):
@@ -131,13 +123,19 @@ def test_wrong_settings_are_refused_with_the_programs_sentence(page):
         assert said in page.next("error")["sentence"]
 
 
-def test_a_broken_file_leaves_the_document_that_was_open(page):
+def test_a_refused_file_leaves_the_document_that_was_open(page):
     page.say(type="example", id="loop", generation=1)
     page.next("shape")
-    page.say(b"no picture", type="open", name="logo.png", generation=2)
-    assert "logo.png" in page.next("error")["sentence"]
+    page.say(b"MZ", type="open", name="logo.exe", generation=2)
+    assert "no reader for this ending" in page.next("error")["sentence"]
     page.say(type="fit", generation=3, settings={"tolerance": 0.02})
-    assert page.next("fit")["kept"]
+    fit = page.next("fit")
+    assert fit["kept"]
+    # It crosses itself once: two stretches of its samples come near that place, others do not.
+    ((outline, *place),) = page.next("done")["crossings"].tolist()
+    assert outline == 0
+    near = np.flatnonzero(np.hypot(*(fit["samples"][:, :2] - place).T) < 0.2)
+    assert np.count_nonzero(np.diff(near) > 10) == 1
 
 
 def test_corners_held_and_moved_points_are_those_of_the_outline():
@@ -199,6 +197,28 @@ def test_text_makes_the_same_fit_again(tmp_path, monkeypatch, shapespline):
     assert (tmp_path / "scan_fit.svg").read_bytes() != expected
     with pytest.raises(ss.InvalidInputError, match="copy the Python"):
         command_line(own)
+
+
+def test_regularities_are_listed_by_kind_and_switched_off_by_kind(page):
+    # A slot, which is found at once.
+    t = np.linspace(-0.5, 0.5, 30, endpoint=False)
+    side, end = 40 * t, 8 * np.exp(1j * np.pi * t)
+    points = np.concatenate([side - 8j, 20 + end, -side + 8j, -20 - end])
+    content = "".join(f"{z.real},{z.imag}\n" for z in points)
+    page.session._document = opened("slot.csv", content.encode(), {"closed": True})
+    page.session.greet()
+    settings = {"tolerance": 0.1, "character": "drawn"}
+    page.say(type="fit", generation=2, settings=settings)
+    fit = page.next("fit")
+    names = {one["name"] for one in fit["regularities"]}
+    assert {"axis-parallel", "tangent", "mirror"} <= names
+    assert all(max(one["pieces"]) < len(fit["kinds"]) for one in fit["regularities"])
+    page.next("done")
+    kept = sorted(names - {"axis-parallel"})
+    page.say(type="fit", generation=3, settings={**settings, "regularities": kept})
+    names = {one["name"] for one in page.next("fit")["regularities"]}
+    assert names
+    assert names <= set(kept)
 
 
 @pytest.mark.slow

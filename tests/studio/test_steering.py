@@ -70,6 +70,56 @@ def test_corners_held_and_moved_points_by_the_pointer(page):
     assert own(page) == {}
 
 
+def test_regularities_have_a_switch_for_each_kind(page):
+    example(page, "plate")
+    assert not page.is_visible("#regular")
+    page.select_option("#word-character", "drawn")
+    until(page, DONE)
+    assert "axis-parallel" in page.inner_text("#regularities")
+    assert "arc" in text(page)
+    page.hover("#regularities li li")
+    assert len(page.evaluate("studio.regular.marked")) > 0
+    page.uncheck("#regular-axis-parallel")
+    until(page, DONE)
+    names = "new Set(studio.fitter.fits.flatMap(f => f.regularities.map(r => r.name)))"
+    assert not page.evaluate(f"{names}.has('axis-parallel')")
+    assert page.evaluate("document.activeElement.id") == "regular-axis-parallel"
+    # What is switched off stays in the list, so that it can be switched on again.
+    page.check("#regular-axis-parallel")
+    until(page, DONE)
+    assert page.evaluate(f"{names}.has('axis-parallel')")
+    assert page.evaluate("studio.store.now.regularities") is None
+    for _ in range(3):
+        page.keyboard.press("z")
+    until(page, DONE)
+    assert page.input_value("#word-character") == page.evaluate("studio.panel.defaults.character")
+
+
+def test_what_is_under_way_is_ended(page):
+    example(page, "loop")
+    assert "which cross at 1 place" in text(page)
+    before, state = text(page), page.evaluate("studio.store.now")
+    content = b"".join(f"{k},{(k * k) % 977}\n".encode() for k in range(400_000))
+    page.set_input_files("#file", {"name": "l.csv", "mimeType": "text/plain", "buffer": content})
+    until(page, "() => document.querySelector('#progress').textContent.includes('Reading l.csv')")
+    page.click("#cancel")
+    until(page, "() => !document.querySelector('#cancel').checkVisibility()")
+    assert page.evaluate("[studio.files.file.name, studio.files.reading]") == ["loop.csv", None]
+    assert page.input_value("#examples") == "loop"
+    assert (text(page), page.evaluate("studio.store.now")) == (before, state)
+    # A newer file ends the one that is being read.
+    page.set_input_files("#file", {"name": "l.csv", "mimeType": "text/plain", "buffer": content})
+    until(page, "() => studio.files.reading !== null")
+    example(page, LEAF)
+    page.select_option("#effort", "smallest")
+    page.fill("#tolerance-number", "0.015")
+    page.press("#tolerance-number", "Enter")
+    until(page, "() => document.querySelector('#progress').textContent.startsWith('Fitting for')")
+    page.keyboard.press("Escape")
+    until(page, "() => document.querySelector('#progress').textContent.startsWith('Ended')")
+    assert page.evaluate("studio.scene.shape.name") == "scan.csv"
+
+
 def test_two_settings_stand_side_by_side(page):
     example(page, LEAF)
     page.click("#compare")

@@ -1,5 +1,6 @@
 """Fitting: from a request to a verified Fit."""
 
+from shapespline.engines.drawn import NAMES as REGULARITIES
 from shapespline.fitting.curve import fit_curve
 from shapespline.fitting.large import fit_large
 from shapespline.fitting.many import Batch, fit_many
@@ -11,6 +12,7 @@ from shapespline.fitting.shape import fit_shape
 from shapespline.fitting.verify import verified_fit
 
 __all__ = [
+    "REGULARITIES",
     "SETTINGS_VERSION",
     "Batch",
     "Request",

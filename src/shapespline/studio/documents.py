@@ -89,15 +89,13 @@ def safe_name(name: object) -> str:
     return stem[: LONGEST_NAME - len(suffix[:10])] + suffix[:10]
 
 
-def opened(
-    name: object, content: bytes, options: Mapping[str, Any], say: Say | None = None
-) -> Document:
-    """The document that some bytes are; told what comes next, `say` may raise to end the reading.
+def checked(name: object, content: bytes, options: Mapping[str, Any]) -> str:
+    """The name of a file, if it may be read: its size, its ending, and the options.
 
     Raises
     ------
     InvalidInputError, FormatError
-        If the file is too large, of no known kind, broken, or without an outline.
+        If the file is too large or of no known kind, or an option is not known.
     """
     name = safe_name(name)
     if len(content) > MOST_BYTES:
@@ -112,6 +110,20 @@ def opened(
     for option in options:
         if option not in OPTIONS:
             raise InvalidInputError(f"{option} is no option of reading; reload the page")
+    return name
+
+
+def opened(
+    name: object, content: bytes, options: Mapping[str, Any], say: Say | None = None
+) -> Document:
+    """The document that some bytes are; told what comes next, `say` may raise to end the reading.
+
+    Raises
+    ------
+    InvalidInputError, FormatError
+        If the file is too large, of no known kind, broken, or without an outline.
+    """
+    name = checked(name, content, options)
     given = {option: value for option, value in options.items() if value not in (None, "", False)}
     file = io.BytesIO(content)
     file.name = name

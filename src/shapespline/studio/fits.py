@@ -42,6 +42,17 @@ def choices() -> dict[str, list[str]]:
     }
 
 
+def defaults() -> dict[str, str]:
+    """What these options are where nothing is said.
+
+    Examples
+    --------
+    >>> defaults()["effort"]
+    'balanced'
+    """
+    return {item.name: str(item.default) for item in fields(Settings) if item.name in choices()}
+
+
 def fitted(asked: Asked, index: int, ticket: Ticket, *, draft: bool = False) -> Fit:
     """The fit of one outline; a draft is one within a few hundredths of a second."""
     settings = asked.settings(index)
@@ -50,6 +61,9 @@ def fitted(asked: Asked, index: int, ticket: Ticket, *, draft: bool = False) -> 
         settings = replace(
             settings,
             effort="fast" if within else settings.effort,
+            # What was drawn is looked for without an eye on the time (STU-06).
+            character="fewest",
+            regularities="auto",
             time_limit=DRAFT_SECONDS,
         )
     elif settings.time_limit is None:

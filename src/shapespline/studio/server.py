@@ -17,6 +17,7 @@ import tempfile
 import threading
 import webbrowser
 from pathlib import Path
+from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from shapespline.errors import InvalidInputError, require
@@ -25,6 +26,7 @@ from shapespline.studio.documents import MOST_BYTES, Document, opened, opened_ex
 from shapespline.studio.examples import EXAMPLES
 from shapespline.studio.fits import fitted
 from shapespline.studio.jobs import Ticket
+from shapespline.studio.reading import Readers
 from shapespline.studio.session import Session
 from shapespline.studio.sketch import sketch
 
@@ -48,6 +50,8 @@ POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:;"
     " connect-src 'self' ws://{host}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
+# Seconds that jobs have to end in at the end (STU-07).
+MOST_ENDING = 4.0
 KINDS = {
     ".html": "text/html",
     ".js": "text/javascript",
@@ -124,10 +128,21 @@ def open_studio(
     if browser:
         threading.Timer(0.3, webbrowser.open, [address]).start()
     try:
-        with _own_temporary_folder(), contextlib.suppress(KeyboardInterrupt), listening:
-            server.run(sockets=[listening])
+        with _own_temporary_folder(), listening:
+            with contextlib.suppress(KeyboardInterrupt):
+                server.run(sockets=[listening])
+            with contextlib.suppress(KeyboardInterrupt):
+                _wait_for_threads()
     finally:
         sys.setswitchinterval(before)
+
+
+def _wait_for_threads() -> None:
+    """Let jobs that were told to end do so: a thread cut off in the kernel ends the program ill."""
+    end = monotonic() + MOST_ENDING
+    for thread in threading.enumerate():
+        if thread.name.startswith("studio-"):
+            thread.join(max(0.0, end - monotonic()))
 
 
 @contextlib.contextmanager
@@ -150,6 +165,7 @@ def application(token: str, place: str, first: Document | None = None) -> Starle
 
     pages = {file.name: file for file in PAGE.iterdir() if file.suffix in KINDS}
     sessions: set[Session] = set()
+    readers = Readers()
 
     async def page(request: Any) -> Response:
         name = request.path_params.get("name") or "index.html"
@@ -159,13 +175,14 @@ def application(token: str, place: str, first: Document | None = None) -> Starle
         return Response(file.read_bytes(), media_type=KINDS[file.suffix])
 
     async def talk(websocket: WebSocket) -> None:
-        await _talk(websocket, sessions, first)
+        await _talk(websocket, sessions, readers, first)
 
     @contextlib.asynccontextmanager
     async def lifespan(_: Starlette) -> Any:
         yield
         for session in list(sessions):
             session.close()
+        readers.close()
 
     routes = [
         WebSocketRoute(f"/{token}/socket", talk),
@@ -229,7 +246,9 @@ async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:
     await send({"type": "http.response.body", "body": b"not from here\n"})
 
 
-async def _talk(websocket: WebSocket, sessions: set[Session], first: Document | None) -> None:
+async def _talk(
+    websocket: WebSocket, sessions: set[Session], readers: Readers, first: Document | None
+) -> None:
     """One page: hear it until it goes."""
     from starlette.websockets import WebSocketDisconnect
 
@@ -252,7 +271,7 @@ async def _talk(websocket: WebSocket, sessions: set[Session], first: Document | 
                 return
             await websocket.send_bytes(message)
 
-    session = Session(send, first)
+    session = Session(send, readers, first)
     sessions.add(session)
     pouring = asyncio.create_task(pour())
     try:

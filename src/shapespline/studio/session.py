@@ -13,15 +13,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shapespline.errors import InvalidInputError, ShapesplineError
+from shapespline.fitting import REGULARITIES
 from shapespline.formats import writable
 from shapespline.studio import fits, outputs, papers
 from shapespline.studio.asked import Asked
+from shapespline.studio.crossings import crossings
 from shapespline.studio.documents import (
     MOST_BYTES,
     MOST_DRAWN,
     Document,
     drawn_points,
-    opened,
     opened_example,
 )
 from shapespline.studio.examples import EXAMPLES, example_bytes
@@ -33,9 +34,9 @@ from shapespline.values import Drawing
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from shapespline.monitor import Say
     from shapespline.studio.jobs import Ticket
-    from shapespline.typing import IntArray
+    from shapespline.studio.reading import Readers
+    from shapespline.typing import FloatArray, IntArray
     from shapespline.values import Fit
 
 LOG = logging.getLogger(__name__)
@@ -51,12 +52,17 @@ class Session:
     ----------
     send : callable
         Takes a message as bytes, from any thread.
+    readers : Readers
+        Processes that read files.
     first : Document, optional
         What the program was started with.
     """
 
-    def __init__(self, send: Callable[[bytes], None], first: Document | None = None) -> None:
+    def __init__(
+        self, send: Callable[[bytes], None], readers: Readers, first: Document | None = None
+    ) -> None:
         self._send = send
+        self._readers = readers
         self._document = first
         self._drawn: list[IntArray] = []
         self._drawings: dict[str, Drawing] = {}
@@ -80,6 +86,8 @@ class Session:
                 "examples": [{"id": name, "title": e.title} for name, e in EXAMPLES.items()],
                 "formats": list(writable()),
                 "choices": fits.choices(),
+                "defaults": fits.defaults(),
+                "regularities": list(REGULARITIES),
                 "methods": list(papers.METHODS),
                 "most_bytes": MOST_BYTES,
                 "has_document": self._document is not None,
@@ -109,26 +117,24 @@ class Session:
 
     def _open(self, header: Mapping[str, Any], content: bytes) -> None:
         options = dict(header.get("options") or {})
-        self._read(header, lambda say: opened(header.get("name"), content, options, say), None)
+        name = header.get("name")
+        self._read(header, lambda t: self._readers.opened(name, content, options, t), None)
 
     def _example(self, header: Mapping[str, Any], _: bytes) -> None:
         name = str(header.get("id"))
         example_bytes(name)
-
-        def make(_: Say) -> Document:
-            return opened_example(name)
-
-        self._read(header, make, EXAMPLES[name].tolerance)
+        self._read(header, lambda _: opened_example(name), EXAMPLES[name].tolerance)
 
     def _reread(self, header: Mapping[str, Any], _: bytes) -> None:
         document = self._opened()
         options = dict(header.get("options") or {})
-        self._read(header, lambda say: opened(document.name, document.content, options, say), None)
+        name, content = document.name, document.content
+        self._read(header, lambda t: self._readers.opened(name, content, options, t), None)
 
     def _read(
         self,
         header: Mapping[str, Any],
-        make: Callable[[Say], Document],
+        make: Callable[[Ticket], Document],
         tolerance: float | None,
     ) -> None:
         def work(ticket: Ticket) -> None:
@@ -140,8 +146,11 @@ class Session:
                     "slot": "open",
                 }
             )
-            document = make(ticket.say)
+            document = make(ticket)
             ticket.check()
+            # Until here the fits of the document before went on.
+            for slot in ("a", "b", "paper"):
+                self._lanes[slot].cancel()
             self._document = document
             self._drawings.clear()
             # The page has its own files; those of examples it gets once.
@@ -150,8 +159,6 @@ class Session:
                 document, ticket.generation, tolerance, {"file": content} if tolerance else None
             )
 
-        for slot in ("a", "b", "paper"):
-            self._lanes[slot].cancel()
         self._submit("open", header, work)
 
     def _show(
@@ -235,45 +242,45 @@ class Session:
             else:
                 found = enumerate(fits.whole(asked, ticket))
             kept: dict[int, Fit] = {}
+            lines: dict[int, FloatArray] = {}
             for index, fit in found:
                 ticket.check()
                 kept[index] = fit
                 all_there = len(fit.contour) == len(document.shape.contours[index])
                 made = sketch(fit, document.origin, drawn[index] if all_there else None)
+                lines[index] = made.line
                 about = {"type": "fit", "generation": ticket.generation, "outline": index}
                 about |= {"slot": slot, "draft": draft, "seconds": perf_counter() - began}
                 self._say({**about, **made.figures}, made.arrays)
             drawing = Drawing.of(document.shape, [kept[k] for k in range(n_outlines)])
             if not draft:
                 self._drawings[slot] = drawing
-            self._done(drawing, ticket, slot, draft, perf_counter() - began)
+            about = {"slot": slot, "draft": draft, "seconds": perf_counter() - began}
+            self._done(drawing, [lines[k] for k in range(n_outlines)], ticket, about)
 
         self._submit(slot, header, work)
 
     def _done(
-        self, drawing: Drawing, ticket: Ticket, slot: str, draft: bool, seconds: float
+        self, drawing: Drawing, lines: list[FloatArray], ticket: Ticket, about: dict[str, Any]
     ) -> None:
-        n_points = sum(fit.n_stored_points for fit in drawing)
-        n_bytes = None
-        if n_points <= MOST_ENCODED or not draft:
+        n_points, n_bytes = sum(fit.n_stored_points for fit in drawing), None
+        if n_points <= MOST_ENCODED or not about["draft"]:
             n_bytes = len(outputs.encoded(drawing, ".svg"))
+        met = crossings(lines)
         ticket.check()
-        self._say(
-            {
-                "type": "done",
-                "generation": ticket.generation,
-                "slot": slot,
-                "draft": draft,
-                "n_stored_points": n_points,
-                "n_bytes": n_bytes,
-                "n_kept": sum(fit.kept for fit in drawing),
-                "distance": max(fit.hausdorff_distance for fit in drawing),
-                "seconds": seconds,
-            }
-        )
+        figures = {
+            "n_stored_points": n_points,
+            "n_bytes": n_bytes,
+            "n_kept": sum(fit.kept for fit in drawing),
+            "distance": max(fit.hausdorff_distance for fit in drawing),
+        }
+        said = {"type": "done", "generation": ticket.generation, **about, **figures}
+        self._say(said, {"crossings": met})
+        if not about["draft"]:
+            self._readers.prepare()
 
     def _cancel(self, header: Mapping[str, Any], _: bytes) -> None:
-        for name in ("a", "b", "paper") if header.get("slot") is None else (header["slot"],):
+        for name in LANES if header.get("slot") is None else (header["slot"],):
             self._lanes[name].cancel()
 
     def _paper(self, header: Mapping[str, Any], _: bytes) -> None:

@@ -30,6 +30,12 @@ class Sketch(NamedTuple):
     figures: dict[str, Any]
     arrays: dict[str, np.ndarray]
 
+    @property
+    def line(self) -> FloatArray:
+        """The samples as a polyline, that of a closed curve to its beginning."""
+        line: FloatArray = self.arrays["samples"][:, :2]
+        return np.vstack([line, line[:1]]) if self.figures["closed"] else line
+
 
 def sketch(fit: Fit, origin: FloatArray, drawn: IntArray | None = None) -> Sketch:
     """What the page draws of a fit, its coordinates relative to an origin.
@@ -81,7 +87,10 @@ def sketch(fit: Fit, origin: FloatArray, drawn: IntArray | None = None) -> Sketc
         "n_kinds": Counter(kinds),
         "knots": len(fit.spline.breakpoints),
         "n_outliers": len(fit.outliers),
-        "regularities": [str(one) for one in getattr(fit, "regularities", None) or ()],
+        "regularities": [
+            {"name": one.name, "text": str(one), "pieces": list(one.pieces)}
+            for one in fit.regularities
+        ],
     }
     return Sketch(figures, arrays)
 

@@ -16,8 +16,12 @@ export class Files {
   /** @param {import("./main.js").App} app */
   constructor(app) {
     this.app = app;
-    /** @type {{name: string, bytes: Uint8Array} | null} */
+    /** @type {{name: string, bytes: Uint8Array} | null} what is open */
     this.file = null;
+    /** @type {{generation: number, file: {name: string, bytes: Uint8Array} | null} | null} what is being read; an example has no file yet */
+    this.reading = null;
+    /** The example that is open, or nothing. */
+    this.exampleOpen = "";
     this.pixels = 0;
     this.rows = 0;
     this.most = 64e6;
@@ -80,9 +84,7 @@ export class Files {
 
   /** @param {string} id */
   example(id) {
-    this.generation += 1;
-    this.file = null;
-    this.app.wire.send({ type: "example", id, generation: this.generation });
+    this.send({ type: "example", id }, null);
     choice("examples").value = id;
   }
 
@@ -122,17 +124,50 @@ export class Files {
 
   /** @param {string} name @param {Uint8Array} bytes @param {Object<string, any>} [options] */
   open(name, bytes, options = {}) {
-    this.file = { name, bytes };
-    this.generation += 1;
+    this.send({ type: "open", name, options }, { name, bytes });
     choice("examples").value = "";
-    this.app.wire.send({ type: "open", name, options, generation: this.generation }, bytes);
   }
 
   /** Open again what the page holds: the program was gone and is back. */
   again() {
-    if (!this.file) return;
+    const file = this.reading?.file ?? this.file;
+    const options = file === this.file ? this.app.store.now.reading : {};
+    if (file) this.send({ type: "open", name: file.name, options }, file);
+  }
+
+  /** Read the picture that is open in another way. @param {Object<string, any>} options */
+  reread(options) {
+    this.send({ type: "reread", options }, this.file, false);
+  }
+
+  /** @param {Object<string, any>} header @param {{name: string, bytes: Uint8Array} | null} file @param {boolean} [withBytes] */
+  send(header, file, withBytes = true) {
     this.generation += 1;
-    this.app.wire.send({ type: "open", name: this.file.name, options: this.app.store.now.reading, generation: this.generation }, this.file.bytes);
+    this.reading = { generation: this.generation, file };
+    this.app.wire.send({ ...header, generation: this.generation }, withBytes ? file?.bytes : undefined);
+    this.app.say();
+  }
+
+  /** A document is there. @param {{name: string, generation: number, file?: Uint8Array}} message */
+  arrived({ name, generation, file }) {
+    const { reading, file: before } = this;
+    if (file) this.file = { name, bytes: file.slice() };
+    else if (reading?.generation === generation && reading.file) this.file = reading.file;
+    if (reading?.generation === generation) {
+      this.reading = null;
+      if (reading.file !== before) this.exampleOpen = choice("examples").value;
+    }
+  }
+
+  /** What was being read is not wanted, or cannot be: what is open stays. */
+  stays() {
+    const { app } = this;
+    this.reading = this.after = null;
+    choice("examples").value = this.exampleOpen;
+    if (!app.scene.shape) return;
+    app.lastReading = JSON.stringify(app.scene.shape.options);
+    const before = app.store.past.at(-1);
+    if (before && JSON.stringify(app.store.now.reading) !== app.lastReading) app.store.undo();
   }
 
   /** The picture behind the outlines, decoded by the browser. */

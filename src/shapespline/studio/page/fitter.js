@@ -36,6 +36,8 @@ export class Fitter {
   /** Forget the fits of a document that is gone. */
   clear() {
     Object.assign(this, { fits: [], done: null, flying: null, waiting: null });
+    // What still comes of it is older than this.
+    this.generation += 1;
     this.newest = this.generation;
   }
 
@@ -90,6 +92,10 @@ export class Fitter {
   hearDone(done) {
     if (done.generation !== this.generation) return;
     this.done = done;
+    for (let i = 0; i < done.crossings.length; i += 3) {
+      const fit = this.fits[done.crossings[i]];
+      if (fit) (fit.crossings ??= []).push([done.crossings[i + 1], done.crossings[i + 2]]);
+    }
     this.flying = null;
     this.next();
     this.changed();

@@ -35,7 +35,8 @@ export class Keys {
     const { target } = event;
     if (event.ctrlKey || event.metaKey || document.querySelector("dialog[open]")) return;
     const typing = target instanceof HTMLInputElement && !["checkbox", "radio", "button", "range"].includes(target.type);
-    if (typing || target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement) return;
+    const written = typing || target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement;
+    if (written && event.key !== "Escape") return;
     const arrows = event.key.startsWith("Arrow");
     if (arrows && target instanceof HTMLInputElement) return;
     const act = arrows ? this.arrow(event) : this.letter(event);

@@ -30,6 +30,7 @@ export const LAYERS = [
   ["curve", "curve by kind", true, drawCurve],
   ["knots", "knots", false, drawKnots],
   ["nodes", "nodes and corners", true, drawNodes],
+  ["crossings", "crossings", true, drawCrossings],
 ];
 
 /** @param {Scene} scene @param {CanvasRenderingContext2D} c */
@@ -267,4 +268,24 @@ function drawNodes(scene, c) {
     c.fill(square);
     c.stroke(square);
   }
+}
+
+/** Where curves cross, as crosses in rings. @param {Scene} scene @param {CanvasRenderingContext2D} c */
+function drawCrossings(scene, c) {
+  const { scale } = scene.view;
+  const [r, s] = [9 / scale, 5 / scale];
+  c.strokeStyle = colors().held;
+  c.lineWidth = 1.8 / scale;
+  c.beginPath();
+  for (const fit of scene.fits()) {
+    for (const [x, y] of fit?.crossings ?? []) {
+      c.moveTo(x + r, y);
+      c.arc(x, y, r, 0, 2 * Math.PI);
+      c.moveTo(x - s, y - s);
+      c.lineTo(x + s, y + s);
+      c.moveTo(x - s, y + s);
+      c.lineTo(x + s, y - s);
+    }
+  }
+  c.stroke();
 }

@@ -7,15 +7,16 @@ import { Fitter } from "./fitter.js";
 import { onceAFrame } from "./frames.js";
 import { Graph } from "./graph.js";
 import { Keys } from "./keys.js";
-import { drawCrop, drawHover, drawMeasure, drawOwn } from "./marks.js";
+import { drawCrop, drawHover, drawMeasure, drawOwn, drawPieces } from "./marks.js";
 import { Panel, sentence } from "./panel.js";
 import { Paper } from "./paper.js";
 import { Picture } from "./picture.js";
+import { Regular } from "./regular.js";
 import { Scene } from "./scene.js";
 import { Store, firstState } from "./store.js";
 import { Tools } from "./tools.js";
 import { Wire } from "./wire.js";
-import { byId, choice, element } from "./words.js";
+import { byId, capital, choice, element } from "./words.js";
 
 /** @typedef {import("./types.js").Shape} Shape */
 
@@ -37,6 +38,9 @@ export class App {
     this.tools = new Tools(this);
     this.panel = new Panel(this);
     this.keys = new Keys(this);
+    this.regular = new Regular(this);
+    // What is on the screen was fitted before: the newest was ended.
+    this.ended = false;
     this.settle = 0;
     this.ready = false;
     this.lastReading = "{}";
@@ -44,6 +48,7 @@ export class App {
     this.scene.tolerance = () => (this.store.now.goal === "tolerance" ? this.store.now.tolerance : this.fitter.fits[this.scene.outline]?.tolerance ?? null);
     this.scene.above.push(
       (scene, c) => this.paper.draw(scene, c),
+      (scene, c) => { if (!this.paper.on) drawPieces(scene, c, this.regular.marked); },
       (scene, c) => { if (!this.paper.on) drawOwn(scene, c, this.store.now.own); },
       (scene, c) => drawHover(scene, c, this.tools.hover ?? this.graph.place),
       (scene, c) => { if (this.tools.mode === "measure") drawMeasure(scene, c, this.tools.ends); },
@@ -59,7 +64,7 @@ export class App {
     const acts = [["undo", () => this.store.undo()], ["redo", () => this.store.redo()],
       ["compare", () => this.compare.turn(!this.compare.on)], ["paper", () => this.paper.turn(!this.paper.on)],
       ["zoom-in", () => this.zoom(1.25)], ["zoom-out", () => this.zoom(0.8)], ["zoom-fit", () => this.fitView()],
-      ["measure", () => this.tools.turn("measure")],
+      ["measure", () => this.tools.turn("measure")], ["cancel", () => this.cancel()],
       ["hints-away", () => {
         element("hints").hidden = true;
         localStorage.setItem(HINTS, "seen");
@@ -103,7 +108,8 @@ export class App {
   hello(hello) {
     if (!this.ready) {
       this.files.offer(hello);
-      this.panel.offer(hello.choices);
+      this.panel.offer(hello.choices, hello.defaults);
+      this.regular.names = hello.regularities;
       this.paper.offer(hello.methods);
       element("hints").hidden = localStorage.getItem(HINTS) !== null;
       this.ready = true;
@@ -123,7 +129,7 @@ export class App {
     const before = this.scene.shape;
     const again = before?.name === message.name && JSON.stringify(message.options) !== "{}" || this.reopening === message.generation;
     const own = this.files.after;
-    if (message.file) this.files.file = { name: message.name, bytes: message.file.slice() };
+    this.files.arrived(message);
     this.files.after = null;
     this.fitter.clear();
     this.second.clear();
@@ -157,12 +163,12 @@ export class App {
     const reading = JSON.stringify(this.store.now.reading);
     if (reading !== this.lastReading) {
       this.lastReading = reading;
-      this.files.generation += 1;
+      this.files.reread(this.store.now.reading);
       this.reopening = this.files.generation;
-      this.wire.send({ type: "reread", options: this.store.now.reading, generation: this.files.generation });
       return;
     }
     this.trouble("");
+    this.ended = false;
     // Of a new document something is seen at once: a draft goes before the whole.
     const isNew = !this.fitter.fits.length;
     if (isNew) this.fitter.ask(this.store.now, this.scene.outline, true);
@@ -202,9 +208,16 @@ export class App {
     this.scene.draw();
   }
 
+  /** End what is under way: a file that is being read, or else the fits. */
   cancel() {
-    this.wire.send({ type: "cancel" });
-    for (const fitter of [this.fitter, this.second]) Object.assign(fitter, { flying: null, waiting: null });
+    if (this.files.reading) {
+      this.wire.send({ type: "cancel", slot: "open" });
+      this.files.stays();
+    } else {
+      this.wire.send({ type: "cancel" });
+      this.ended = this.fitter.busy;
+      for (const fitter of [this.fitter, this.second]) Object.assign(fitter, { flying: null, waiting: null });
+    }
     this.paper.stop();
     if (this.tools.mode) this.tools.turn("");
     if (document.body.dataset.sheet) this.sheet(document.body.dataset.sheet);
@@ -213,6 +226,7 @@ export class App {
 
   /** Do something with a finished fit of the state. @param {() => void} act */
   whenDone(act) {
+    if (this.ended) this.changed(false);
     const { done, busy } = this.fitter;
     if (done && !done.draft && !busy) act();
     else this.fitter.finished.push(act);
@@ -238,22 +252,27 @@ export class App {
     const said = text && this.compare.on && !this.paper.on ? `A: ${text}` : text;
     if (said && line.textContent !== said) line.textContent = said;
     const busy = this.fitter.busy || !this.wire.connected;
-    line.classList.toggle("busy", busy);
-    if (!busy) element("progress").textContent = "";
+    line.classList.toggle("busy", busy || this.ended);
+    const words = element("progress");
+    if (!busy && !this.files.reading) words.textContent = this.ended ? "Ended; this is the fit before." : "";
+    const working = (busy || this.files.reading !== null) && words.textContent !== "";
+    if (element("cancel").hidden === working) element("cancel").hidden = !working;
   }
 
   /** @param {{text: string, slot: string, generation: number}} message */
   progress({ text, slot, generation }) {
     if (slot === "a" && generation !== this.fitter.generation) return;
-    if (!this.scene.shape) element("sentence").textContent = `${text[0].toUpperCase()}${text.slice(1)}.`;
-    element("sentence").classList.add("busy");
-    element("progress").textContent = `${text} (Escape ends it)`;
+    if (slot === "open" && generation !== this.files.reading?.generation) return;
+    const said = capital(text);
+    if (!this.scene.shape) element("sentence").textContent = `${said}.`;
+    element("progress").textContent = said;
+    this.say();
   }
 
   /** @param {any} message @param {Fitter} of */
   error(message, of) {
     if (message.slot === "a" || message.slot === "b") of.failed(message.generation);
-    this.files.after = null;
+    if (message.slot === "open" && message.generation === this.files.reading?.generation) this.files.stays();
     this.trouble(message.sentence);
     this.refresh();
   }

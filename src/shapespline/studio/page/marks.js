@@ -89,3 +89,26 @@ export function drawCrop(scene, c, ends) {
   c.strokeRect(ends[0][0], ends[0][1], ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
   c.setLineDash([]);
 }
+
+/** Pieces of a fit that are spoken of, as a broad line behind their own. @param {Scene} scene
+ * @param {CanvasRenderingContext2D} c @param {number[]} pieces */
+export function drawPieces(scene, c, pieces) {
+  const fit = scene.fits()[scene.outline];
+  if (!fit || !pieces.length) return;
+  const chosen = new Set(pieces);
+  c.beginPath();
+  let at = 0;
+  fit.counts.forEach((count, piece) => {
+    for (let k = at; k < at + count && chosen.has(piece); k++) {
+      const q = fit.cubics.subarray(8 * k, 8 * k + 8);
+      if (k === at) c.moveTo(q[0], q[1]);
+      c.bezierCurveTo(q[2], q[3], q[4], q[5], q[6], q[7]);
+    }
+    at += count;
+  });
+  c.globalAlpha = 0.4;
+  c.strokeStyle = colors().held;
+  c.lineWidth = 10 / scene.view.scale;
+  c.stroke();
+  c.globalAlpha = 1;
+}

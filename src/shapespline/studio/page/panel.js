@@ -18,6 +18,8 @@ export class Panel {
   constructor(app) {
     this.app = app;
     this.unit = "data";
+    /** @type {Object<string, string>} */
+    this.defaults = {};
     const { store } = app;
     for (const radio of document.getElementsByName("goal")) {
       radio.addEventListener("change", () => store.change({ goal: /** @type {HTMLInputElement} */ (radio).value }));
@@ -63,8 +65,9 @@ export class Panel {
     else element("figures").before(block);
   }
 
-  /** @param {Object<string, string[]>} choices */
-  offer(choices) {
+  /** @param {Object<string, string[]>} choices @param {Object<string, string>} defaults */
+  offer(choices, defaults) {
+    this.defaults = defaults;
     fill(choice("form"), choices.form.map((one) => /** @type {[string, string]} */ ([one, FORMS[one] ?? one])));
     fill(choice("effort"), choices.effort);
     element("more-words").replaceChildren(...Object.entries(choices).filter(([name]) => !PLACED.has(name)).map(([name, words]) => {
@@ -72,7 +75,8 @@ export class Panel {
       const list = document.createElement("select");
       fill(list, words);
       list.id = `word-${name}`;
-      list.addEventListener("change", () => this.app.store.change({ words: { ...this.app.store.now.words, [name]: list.value } }));
+      list.addEventListener("change", () => this.app.store.change({ regularities: null,
+        words: { ...this.app.store.now.words, [name]: list.value } }));
       const text = document.createElement("span");
       text.textContent = capital(name);
       label.append(text, list);
@@ -155,7 +159,14 @@ export class Panel {
     list.setAttribute("aria-activedescendant", `outline-${scene.outline}`);
   }
 
+  /** Whether the shape is wanted as it was drawn. */
+  isDrawn() {
+    const { words, goal } = this.app.store.now;
+    return goal !== "points" && (words.character ?? this.defaults.character) === "drawn";
+  }
+
   factor() {
+    if (this.unit === "px") return this.app.store.now.reading.scale;
     return this.unit === "%" ? (this.app.scene.shape?.diagonal ?? 1) / 100 : 1;
   }
 
@@ -192,7 +203,9 @@ export class Panel {
     }
     for (const goal of ["tolerance", "points", "auto"]) element(`goal-${goal}`).hidden = now.goal !== goal;
     const unit = scene.shape?.unit ?? "units";
-    fill(choice("tolerance-unit"), [["data", unit], ["%", "% of size"]]);
+    const pixels = now.reading.scale && scene.shape?.picture;
+    if (this.unit === "px" && !pixels) this.unit = "data";
+    fill(choice("tolerance-unit"), [["data", unit], ["%", "% of size"], .../** @type {[string, string][]} */ (pixels ? [["px", "pixels"]] : [])]);
     choice("tolerance-unit").value = this.unit;
     const slider = input("tolerance");
     slider.value = `${this.toSlider(now.tolerance)}`;
@@ -204,9 +217,9 @@ export class Panel {
     input("degree").value = `${now.degree}`;
     input("symmetric").checked = now.symmetric;
     input("outliers").checked = now.outliers;
-    for (const [name, word] of Object.entries(now.words)) {
-      const list = document.getElementById(`word-${name}`);
-      if (list instanceof HTMLSelectElement) list.value = word;
+    for (const list of element("more-words").querySelectorAll("select")) {
+      const name = list.id.slice("word-".length);
+      list.value = now.words[name] ?? this.defaults[name];
     }
     this.showOwn(now);
     element("undo").toggleAttribute("disabled", !store.past.length);
@@ -234,7 +247,7 @@ export class Panel {
 
   /** What the fits are: figures, sentence, regularities. */
   figures() {
-    const { fitter, scene } = this.app;
+    const { fitter } = this.app;
     const fits = fitter.fits.filter((fit) => fit !== undefined);
     if (!fits.length) {
       element("figures").replaceChildren();
@@ -255,13 +268,7 @@ export class Panel {
       list.children[2 * k].textContent = `${name}`;
       list.children[2 * k + 1].textContent = `${value}`;
     });
-    const regular = fitter.fits[scene.outline]?.regularities ?? [];
-    element("regular").hidden = !regular.length;
-    element("regularities").replaceChildren(...regular.map((text) => {
-      const item = document.createElement("li");
-      item.textContent = text;
-      return item;
-    }));
+    this.app.regular.show();
     this.legend();
   }
 }
@@ -280,7 +287,8 @@ export function sentence(all, outline, own = {}) {
   const left = fits.reduce((sum, fit) => sum + fit.n_outliers, 0);
   const moves = Object.values(own).flatMap((one) => one.moved ?? []).map(([, dx, dy]) => Math.hypot(dx, dy));
   const moved = moves.length ? ` Measured to the points as moved by hand, by up to ${short(Math.max(...moves), 2)}.` : "";
-  const tail = `${stored} in ${pieces}${left ? `; ${counted(left, "outlier")} left out` : ""}.${moved}`;
+  const met = fits.reduce((sum, fit) => sum + (fit.crossings?.length ?? 0), 0);
+  const tail = `${stored} in ${pieces}${met ? `, which cross at ${counted(met, "place")}` : ""}${left ? `; ${counted(left, "outlier")} left out` : ""}.${moved}`;
   if (fits.length === 1) return `${capital(fits[0].sentence)}. ${tail}`;
   const worst = fits.reduce((a, b) => (b.hausdorff_distance > a.hausdorff_distance ? b : a));
   const first = kept === fits.length ? `All ${fits.length} outlines are kept, the farthest within ${short(worst.hausdorff_distance)} both ways`

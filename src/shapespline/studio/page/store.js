@@ -9,8 +9,8 @@ const MOST_UNDONE = 500;
 export function firstState() {
   return {
     goal: "tolerance", tolerance: 1, points: 24, degree: 3, corners: "auto", form: "pieces",
-    effort: "balanced", ends: "free", symmetric: false, outliers: false, words: {}, own: {},
-    reading: {},
+    effort: "balanced", ends: "free", symmetric: false, outliers: false, words: {}, regularities: null,
+    own: {}, reading: {},
   };
 }
 
@@ -31,6 +31,7 @@ export function asked(state) {
     if (state.form !== "pieces") settings.form = state.form;
     if (state.effort !== "balanced") settings.effort = state.effort;
     Object.assign(settings, state.words);
+    if (state.regularities) settings.regularities = state.regularities.length ? state.regularities : null;
   }
   if (state.goal === "tolerance") {
     if (state.symmetric) settings.symmetric = true;

@@ -11,17 +11,19 @@
  *   status: string, sentence: string, kept: boolean, tolerance: number, max_distance: number,
  *   hausdorff_distance: number, rms_distance: number, n_stored_points: number,
  *   n_control_points: number, degree: number, method: string, closed: boolean, kinds: string[],
- *   n_kinds: Object<string, number>, knots: number, n_outliers: number, regularities: string[],
+ *   n_kinds: Object<string, number>, knots: number, n_outliers: number, regularities: Regularity[], crossings?: number[][],
  *   cubics: Float32Array, counts: Int32Array, nodes: Float32Array, turns: Int32Array,
  *   points: Int32Array, corners: Int32Array, polygon: Float32Array, polygons: Int32Array,
  *   samples: Float32Array, errors: Float32Array}} Fit
- * @typedef {{slot: string, draft: boolean, n_stored_points: number, n_bytes: number | null,
+ * @typedef {{name: string, text: string, pieces: number[]}} Regularity
+ * @typedef {{slot: string, draft: boolean, crossings: Float32Array, n_stored_points: number, n_bytes: number | null,
  *   n_kept: number, distance: number, seconds: number, generation: number}} Done
  * @typedef {{corners?: number[], through?: number[], end_tangents?: (number[] | null)[],
  *   moved?: number[][]}} Own
  * @typedef {{goal: string, tolerance: number, points: number, degree: number, corners: string,
  *   form: string, effort: string, ends: string, symmetric: boolean, outliers: boolean,
- *   words: Object<string, string>, own: Object<string, Own>, reading: Object<string, any>}} State
+ *   words: Object<string, string>, regularities: string[] | null,
+ *   own: Object<string, Own>, reading: Object<string, any>}} State
  * @typedef {{length: number, window: number, floor: number, n_control_points: number, error: number,
  *   seconds: number, closed: boolean, outline: number, method: string, h: Float32Array,
  *   places: Float32Array, maxima: Int32Array, stations: Int32Array, tangents: Float32Array,
