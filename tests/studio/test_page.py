@@ -72,6 +72,63 @@ def test_a_phone_shows_the_drawing_the_slider_and_the_sentence(browser, address)
     page.context.close()
 
 
+def test_twice_as_large_nothing_is_cut_off_and_motion_is_reduced(browser, address):
+    size = {"width": 640, "height": 400}
+    page = opened(browser, address, viewport=size, device_scale_factor=2, reduced_motion="reduce")
+    # The button lies within the hints, which lie within the page.
+    page.click("#hints-away")
+    assert page.evaluate("document.documentElement.scrollWidth") == size["width"]
+    for name in ("#canvas", "#tolerance", "#sentence", "#export", "#sheets"):
+        box = page.locator(name).bounding_box()
+        assert 0 <= box["x"] <= box["x"] + box["width"] <= size["width"], name
+        assert 0 <= box["y"] <= box["y"] + box["height"] <= size["height"], name
+    # The sentence can be read as a whole.
+    assert page.evaluate("(({scrollHeight: h, clientHeight: c}) => h <= c + 1)"
+                         "(document.querySelector('#sentence'))")  # fmt: skip
+    # Frames of the film are skipped where less motion is wanted.
+    page.evaluate("studio.paper.films = {x: {asked: 'x', iterations: [...Array(100).keys()]}};"
+                  "studio.paper.filmOf = 'x'; studio.paper.turnTo = f => window.last = f;"
+                  "studio.graph.show = () => 0; studio.paper.play()")  # fmt: skip
+    until(page, "() => window.last >= 10")
+    assert page.evaluate("window.last % 10") == 0
+    page.evaluate("studio.paper.stop()")
+    page.context.close()
+
+
+def test_graph_and_drawing_mark_each_other_and_distances_are_measured(page):
+    example(page, LEAF)
+    page.click("#hints-away")
+    canvas = page.locator("#graph").bounding_box()
+    page.mouse.move(canvas["x"] + 0.4 * canvas["width"], canvas["y"] + 50)
+    until(page, "() => studio.graph.place !== null")
+    place = page.evaluate("studio.graph.place")
+    points = np.array(page.evaluate("[...studio.scene.shape.points]")).reshape(-1, 2)
+    assert np.hypot(*(points - [place["x"], place["y"]]).T).min() == 0
+    assert "off" in page.inner_text("#under")
+    # The other way: over a point of the drawing its place in the graph is marked.
+    box = page.locator("#canvas").bounding_box()
+    x, y = page.evaluate("studio.scene.view.toScreen(...studio.scene.shape.points.slice(40, 42))")
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    until(page, "() => studio.tools.hover !== null")
+    at = page.evaluate("[studio.graph.mark, studio.scene.shape.at[studio.tools.hover.point]]")
+    assert at[0] == at[1]
+    page.click("#measure")
+    page.mouse.move(box["x"] + 200, box["y"] + 200)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 260, box["y"] + 280, steps=3)
+    page.mouse.up()
+    # A hundred pixels of the screen, unless an end snapped to a point nearby.
+    scale = page.evaluate("studio.scene.view.scale")
+    length = float(page.inner_text("#under").split()[0].rstrip(","))
+    assert length == pytest.approx(100 / scale, rel=0.2)
+    page.keyboard.press("Escape")
+    # To the pixel and back: the wheel zooms about the pointer, 0 fits.
+    page.mouse.wheel(0, -3000)
+    until(page, f"() => studio.scene.view.scale > {50 * scale}")
+    page.keyboard.press("0")
+    assert page.evaluate("studio.scene.view.scale") == scale
+
+
 def test_axe_finds_nothing_to_mend(browser, address):
     axe = pytest.importorskip("axe_playwright_python", exc_type=ImportError)
     from pathlib import Path
@@ -96,6 +153,12 @@ def test_axe_finds_nothing_to_mend(browser, address):
                 check()
                 page.keyboard.press("Escape")
             page.click("#tab-pieces")
+            check()
+            page.click("#paper")
+            example(page, "plate")
+            page.select_option("#word-character", "drawn")
+            until(page, DONE)
+            page.click("#regularities summary")
             check()
         page.context.close()
 

@@ -77,6 +77,7 @@ def test_regularities_have_a_switch_for_each_kind(page):
     until(page, DONE)
     assert "axis-parallel" in page.inner_text("#regularities")
     assert "arc" in text(page)
+    page.click("#regularities summary")
     page.hover("#regularities li li")
     assert len(page.evaluate("studio.regular.marked")) > 0
     page.uncheck("#regular-axis-parallel")
@@ -97,7 +98,7 @@ def test_regularities_have_a_switch_for_each_kind(page):
 
 def test_what_is_under_way_is_ended(page):
     example(page, "loop")
-    assert "which cross at 1 place" in text(page)
+    assert "1 crossing." in text(page)
     before, state = text(page), page.evaluate("studio.store.now")
     content = b"".join(f"{k},{(k * k) % 977}\n".encode() for k in range(400_000))
     page.set_input_files("#file", {"name": "l.csv", "mimeType": "text/plain", "buffer": content})

@@ -88,7 +88,7 @@ def sketch(fit: Fit, origin: FloatArray, drawn: IntArray | None = None) -> Sketc
         "knots": len(fit.spline.breakpoints),
         "n_outliers": len(fit.outliers),
         "regularities": [
-            {"name": one.name, "text": str(one), "pieces": list(one.pieces)}
+            {"name": one.name, "text": str(one), "pieces": list(one.pieces), "off": one.off}
             for one in fit.regularities
         ],
     }

@@ -103,6 +103,14 @@ export class Panel {
     element("layers").append(legend);
   }
 
+  /** Layers that would show nothing are not offered. */
+  layersOffered() {
+    const { scene } = this.app;
+    for (const [name] of LAYERS) {
+      input(`layer-${name}`).disabled = !scene.shows(name) || (name === "source" && !scene.shape?.picture);
+    }
+  }
+
   /** Kinds of pieces that are there, with their lines. */
   legend() {
     const palette = colors();
@@ -222,6 +230,7 @@ export class Panel {
       list.value = now.words[name] ?? this.defaults[name];
     }
     this.showOwn(now);
+    this.layersOffered();
     element("undo").toggleAttribute("disabled", !store.past.length);
     element("redo").toggleAttribute("disabled", !store.future.length);
   }
@@ -288,7 +297,7 @@ export function sentence(all, outline, own = {}) {
   const moves = Object.values(own).flatMap((one) => one.moved ?? []).map(([, dx, dy]) => Math.hypot(dx, dy));
   const moved = moves.length ? ` Measured to the points as moved by hand, by up to ${short(Math.max(...moves), 2)}.` : "";
   const met = fits.reduce((sum, fit) => sum + (fit.crossings?.length ?? 0), 0);
-  const tail = `${stored} in ${pieces}${met ? `, which cross at ${counted(met, "place")}` : ""}${left ? `; ${counted(left, "outlier")} left out` : ""}.${moved}`;
+  const tail = `${stored} in ${pieces}${met ? `, ${counted(met, "crossing")}` : ""}${left ? `; ${counted(left, "outlier")} left out` : ""}.${moved}`;
   if (fits.length === 1) return `${capital(fits[0].sentence)}. ${tail}`;
   const worst = fits.reduce((a, b) => (b.hausdorff_distance > a.hausdorff_distance ? b : a));
   const first = kept === fits.length ? `All ${fits.length} outlines are kept, the farthest within ${short(worst.hausdorff_distance)} both ways`

@@ -56,6 +56,7 @@ export class Paper {
     element("paper-panel").hidden = !on;
     element("fit-panel").hidden = on;
     this.app.scene.plain = on;
+    this.app.panel.layersOffered();
     this.stop();
     if (on) {
       this.showStep("film");

@@ -88,9 +88,11 @@ export class Plot {
   /** A text that lines do not run through. @param {string} text @param {number} x @param {number} y */
   label(text, x, y) {
     const c = this.context;
-    c.lineWidth = 4;
-    c.strokeStyle = colors().paper;
-    c.strokeText(text, x, y);
+    const { width } = c.measureText(text);
+    const { fillStyle } = c;
+    c.fillStyle = colors().paper;
+    c.fillRect((c.textAlign === "right" ? x - width : x) - 3, y - 11, width + 6, 15);
+    c.fillStyle = fillStyle;
     c.fillText(text, x, y);
   }
 

@@ -1,6 +1,10 @@
 // The regularities of a shape as it was drawn: a switch for each kind, what was found under it.
 
-import { element } from "./words.js";
+import { counted, element, short } from "./words.js";
+
+const MOST_NAMED = 6;
+// What is off by less, degrees or units, is so up to rounding.
+const EXACT = 1e-8;
 
 /** @typedef {import("./types.js").Regularity} Regularity */
 
@@ -54,15 +58,8 @@ export class Regular {
     const box = document.createElement("input");
     Object.assign(box, { type: "checkbox", value: name, checked: on, id: `regular-${name}` });
     label.append(box, ` ${name}`);
-    const list = document.createElement("ul");
-    list.append(...found.map(({ text, pieces }) => {
-      const one = document.createElement("li");
-      one.textContent = name === "rotation" ? text : text.slice(name.length + 2);
-      one.addEventListener("pointerenter", () => this.mark(pieces));
-      one.addEventListener("pointerleave", () => this.mark([]));
-      return one;
-    }));
-    item.append(label, list);
+    item.append(label);
+    if (found.length) item.append(this.details(found));
     // What a kind is about is marked on the drawing while its switch has the focus, too.
     box.addEventListener("focus", () => this.mark(found.flatMap((one) => one.pieces)));
     box.addEventListener("blur", () => this.mark([]));
@@ -71,9 +68,31 @@ export class Regular {
     return item;
   }
 
+  /** How many there are, and each of them on request. @param {Regularity[]} found */
+  details(found) {
+    const [details, summary, list] = [document.createElement("details"), document.createElement("summary"), document.createElement("ul")];
+    summary.textContent = `${found.length} found, ${off(Math.max(...found.map((one) => Math.abs(one.off))))}`;
+    list.append(...found.map(({ text, pieces, off: by }) => {
+      const one = document.createElement("li");
+      const named = pieces.slice(0, MOST_NAMED).map((piece) => piece + 1).join(", ");
+      const fold = text.match(/^\d+-fold /)?.[0] ?? "";
+      one.textContent = `${fold}${counted(pieces.length, "piece")}: ${named}${pieces.length > MOST_NAMED ? " …" : ""}; ${off(Math.abs(by))}`;
+      one.addEventListener("pointerenter", () => this.mark(pieces));
+      one.addEventListener("pointerleave", () => this.mark([]));
+      return one;
+    }));
+    details.append(summary, list);
+    return details;
+  }
+
   /** @param {number[]} pieces */
   mark(pieces) {
     this.marked = pieces;
     this.app.scene.draw();
   }
+}
+
+/** How far the data were from it. @param {number} value */
+function off(value) {
+  return value < EXACT ? "exact before" : `off by ${short(value)} before`;
 }

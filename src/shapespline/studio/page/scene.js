@@ -94,6 +94,11 @@ export class Scene {
     if (this.frames.length > 500) this.frames.shift();
   }
 
+  /** Whether a layer is drawn if it is wanted: beside the paper's method only what is fitted. @param {string} name */
+  shows(name) {
+    return !this.plain || name === "source" || name === "points";
+  }
+
   /** @param {number} left @param {number} width device pixels @param {() => (Fit | undefined)[]} fits */
   layers(left, width, fits) {
     const { context: c, fits: held } = this;
@@ -104,7 +109,7 @@ export class Scene {
     c.rect(left, 0, width, this.canvas.height);
     c.clip();
     for (const [name, , , drawing] of LAYERS) {
-      if (!this.shown[name] || (this.plain && !["source", "points"].includes(name))) continue;
+      if (!this.shown[name] || !this.shows(name)) continue;
       c.save();
       this.view.apply(c);
       drawing(this, c);
