@@ -118,6 +118,12 @@ def test_what_cannot_be_opened_is_said_in_the_programs_own_sentence(name, conten
         opened(name, content, {})
 
 
+def test_a_document_has_a_limit_of_points(monkeypatch):
+    monkeypatch.setattr("shapespline.studio.documents.MOST_POINTS", 3)
+    with pytest.raises(ss.InvalidInputError, match="and 3 points, got 1 and 4; leave out specks"):
+        opened("square.csv", b"0,0\n1,0\n1,1\n0,1\n", {})
+
+
 def test_options_of_reading_are_those_that_a_page_knows():
     with pytest.raises(ss.InvalidInputError, match="no option of reading"):
         opened("x.csv", b"0,0\n1,1\n2,0\n", {"path": "/etc/passwd"})

@@ -18,6 +18,7 @@ export class Panel {
   constructor(app) {
     this.app = app;
     this.unit = "data";
+    this.legendShown = "";
     /** @type {Object<string, string>} */
     this.defaults = {};
     const { store } = app;
@@ -111,22 +112,24 @@ export class Panel {
     }
   }
 
-  /** Kinds of pieces that are there, with their lines. */
+  /** All kinds of pieces with their lines, those that are not there pale: nothing moves when one comes. */
   legend() {
     const palette = colors();
-    const kinds = new Set(this.app.fitter.fits.flatMap((fit) => fit?.kinds ?? []));
-    const items = [...kinds].sort().map((kind) => {
+    const there = new Set(this.app.fitter.fits.flatMap((fit) => fit?.kinds ?? []));
+    const shown = JSON.stringify([palette.line, ...there]);
+    if (shown === this.legendShown) return;
+    this.legendShown = shown;
+    element("legend").replaceChildren(...Object.entries(KINDS).map(([kind, { dash, width }]) => {
       const row = document.createElement("label");
       const line = document.createElement("span");
       line.className = "swatch";
-      line.style.borderTopColor = palette[kind] ?? palette.other;
-      line.style.borderTopStyle = KINDS[kind]?.dash.length ? (KINDS[kind].dash.length > 2 ? "dotted" : "dashed") : "solid";
-      line.style.borderTopWidth = `${Math.round(KINDS[kind]?.width ?? 2)}px`;
-      row.className = "check";
+      line.style.borderTopColor = there.has(kind) ? palette[kind] : palette.faint;
+      line.style.borderTopStyle = dash.length ? (dash.length > 2 ? "dotted" : "dashed") : "solid";
+      line.style.borderTopWidth = `${Math.round(width)}px`;
+      row.className = there.has(kind) ? "check" : "check absent";
       row.append(line, kind === "bezier" ? "Bezier" : kind);
       return row;
-    });
-    element("legend").replaceChildren(...items);
+    }));
   }
 
   outlines() {
