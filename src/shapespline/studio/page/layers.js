@@ -91,20 +91,31 @@ function drawPoints(scene, c) {
   for (const i of seen) c.fillRect(points[i] - side / 2, points[i + 1] - side / 2, side, side);
 }
 
-/** @param {Fit} fit @returns {Object<string, Path2D>} a path for each kind of piece */
+/** Paths of so few pieces are small on the screen, which a browser without a graphics card draws far sooner. */
+const IN_A_PATH = 48;
+
+/** Paths for each kind of piece; pieces that follow each other are one line. @param {Fit} fit @returns {Object<string, Path2D[]>} */
 function kindPaths(fit) {
   return once(fit, "kinds", () => {
-    /** @type {Object<string, Path2D>} */
+    /** @type {Object<string, Path2D[]>} */
     const paths = {};
     const { cubics, counts, kinds } = fit;
-    let at = 0;
+    let [at, held, before] = [0, 0, ""];
     for (let p = 0; p < kinds.length; p++) {
-      const path = (paths[kinds[p]] ??= new Path2D());
-      path.moveTo(cubics[8 * at], cubics[8 * at + 1]);
+      const kind = kinds[p];
+      const all = (paths[kind] ??= []);
+      held = kind === before ? held + 1 : 0;
+      if (held % IN_A_PATH === 0) {
+        all.push(new Path2D());
+        all[all.length - 1].moveTo(cubics[8 * at], cubics[8 * at + 1]);
+      }
+      const path = all[all.length - 1];
       for (let k = 0; k < counts[p]; k++, at++) {
         const o = 8 * at;
-        path.bezierCurveTo(cubics[o + 2], cubics[o + 3], cubics[o + 4], cubics[o + 5], cubics[o + 6], cubics[o + 7]);
+        if (kind === "line") path.lineTo(cubics[o + 6], cubics[o + 7]);
+        else path.bezierCurveTo(cubics[o + 2], cubics[o + 3], cubics[o + 4], cubics[o + 5], cubics[o + 6], cubics[o + 7]);
       }
+      before = kind;
     }
     return paths;
   });
@@ -117,13 +128,13 @@ function drawCurve(scene, c) {
   c.lineJoin = c.lineCap = "round";
   for (const [k, fit] of scene.fits().entries()) {
     if (!fit) continue;
-    for (const [kind, path] of Object.entries(kindPaths(fit))) {
+    for (const [kind, paths] of Object.entries(kindPaths(fit))) {
       const { dash, width } = KINDS[kind] ?? KINDS.bezier;
       c.strokeStyle = palette[kind] ?? palette.other;
       c.lineWidth = (width + (k === scene.outline && scene.fits().length > 1 ? 0.7 : 0)) / view.scale;
       c.lineCap = dash.length ? "butt" : "round";
       c.setLineDash(dash.map((d) => d / view.scale));
-      c.stroke(path);
+      for (const path of paths) c.stroke(path);
     }
   }
   c.setLineDash([]);
@@ -249,24 +260,28 @@ function drawNodes(scene, c) {
     const apart = (scene.shape.outlines[k].length * scale) / fit.turns.length;
     if (apart < 3) continue;
     const size = Math.min(1, 0.35 + apart / 40);
-    const [round, square] = [new Path2D(), new Path2D()];
-    const [r, s] = [(3.6 * size) / scale, (4 * size) / scale];
-    c.lineWidth = (1.6 * size) / scale;
+    const [r, s, wide] = [(3.6 * size) / scale, (4 * size) / scale, (1.6 * size) / scale];
+    const [left, top] = scene.view.toData(-9, -9);
+    const [right, low] = scene.view.toData(scene.view.width + 9, scene.view.height + 9);
+    /** @type {[number, number][][]} */
+    const [round, square] = [[], []];
     for (let i = 0; i < fit.turns.length; i++) {
       const [x, y] = [fit.nodes[2 * i], fit.nodes[2 * i + 1]];
-      if (fit.turns[i]) square.rect(x - s, y - s, 2 * s, 2 * s);
-      else {
-        round.moveTo(x + r, y);
-        round.arc(x, y, r, 0, 2 * Math.PI);
-      }
+      if (x >= left && x <= right && y >= low && y <= top) (fit.turns[i] ? square : round).push([x, y]);
     }
-    c.fillStyle = palette.paper;
+    c.lineWidth = wide;
     c.strokeStyle = palette.node;
-    c.fill(round);
-    c.stroke(round);
-    c.strokeStyle = palette.corner;
-    c.fill(square);
-    c.stroke(square);
+    c.fillStyle = palette.paper;
+    for (const [x, y] of round) {
+      c.beginPath();
+      c.arc(x, y, r, 0, 2 * Math.PI);
+      c.fill();
+      c.stroke();
+    }
+    for (const [color, half] of /** @type {[string, number][]} */ ([[palette.corner, s + wide / 2], [palette.paper, s - wide / 2]])) {
+      c.fillStyle = color;
+      for (const [x, y] of square) c.fillRect(x - half, y - half, 2 * half, 2 * half);
+    }
   }
 }
 
