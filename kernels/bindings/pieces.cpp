@@ -37,7 +37,7 @@ PiecesTuple fit_pieces(const PiecesOutline &outline, const pieces::PiecesSetting
     ss::Interruption asking = interruption(ask);
     nb::gil_scoped_release release;
     auto sections = outline.laid_out(settings).search(asking);
-    if (observed)
+    if (observed && !sections.empty())
         sections = pieces::fit_observed(vectors(*observed), outline.closed, std::move(sections),
                                         noise);
     PiecesTuple found;

@@ -249,7 +249,7 @@ class JointSmoother {
         const LawsonResult result =
             LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits).run();
         if (!result.kept) return false;
-        if (only_fair_ && !fairness_.may_replace(ring_.window(i0, i1), result.sections)) {
+        if (only_fair_ && !fairness_.may_replace(ring_, i0, i1, result.sections)) {
             refused_ = true;
             return false;
         }

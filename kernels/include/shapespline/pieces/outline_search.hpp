@@ -43,9 +43,18 @@ struct OutlineSearch {
     static constexpr double kDegenerate = 1e-3;  // of the tolerance (PIE-12)
     static constexpr int kPathTrials = 200, kPathRounds = 30, kMostStarts = 16;
 
+    // Where no path is fair the best one that keeps the tolerance.
     std::vector<Section> sections_of_best_path() const {
-        std::vector<FeasibleExtension> extensions = all_extensions();
+        const std::vector<FeasibleExtension> extensions = all_extensions();
         if (interruption.ended()) return {};
+        std::vector<Section> sections = sections_of_best_path(extensions, true);
+        if (sections.empty()) sections = sections_of_best_path(extensions, false);
+        make_disjoint(sections);
+        return sections;
+    }
+
+    std::vector<Section> sections_of_best_path(std::vector<FeasibleExtension> extensions,
+                                               bool fair) const {
         std::map<std::array<std::size_t, 3>, LawsonResult> fits;
         SectionFairness fairness(data, settings.tolerance);
         std::vector<Section> sections;
@@ -57,8 +66,9 @@ struct OutlineSearch {
                 if (fresh) {
                     at->second = fit(extensions[step.extension].cost, step);
                     const bool asked = nodes[step.from].required || nodes[step.to].required;
-                    at->second.kept = at->second.kept &&
-                                      (asked || fairness.is_fair(at->second.sections.front()));
+                    at->second.kept =
+                        at->second.kept &&
+                        (!fair || asked || !fairness.stands_still(at->second.sections.front()));
                 }
                 if (!at->second.kept) {
                     shorten(extensions[step.extension], step);
@@ -69,7 +79,6 @@ struct OutlineSearch {
             }
             if (all_kept) break;
         }
-        make_disjoint(sections);
         return sections;
     }
 

@@ -106,7 +106,7 @@ class Reduction {
             const LawsonResult result =
                 LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits)
                     .run();
-            if (result.kept && fairness_.may_replace(ring_.window(i0, i1), result.sections)) {
+            if (result.kept && fairness_.may_replace(ring_, i0, i1, result.sections)) {
                 ring_.replace(i0, i1, result.sections);
                 return true;
             }

@@ -1,5 +1,5 @@
 // What makes a spline fit for use, beside its distance: even intervals, no near-cusp, no new
-// crossing.
+// crossing, no hook.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,8 @@
 #include "shapespline/curve/flatten.hpp"
 #include "shapespline/curve/span_basis.hpp"
 #include "shapespline/distance/crossings.hpp"
+#include "shapespline/distance/hooks.hpp"
+#include "shapespline/spline/search_polyline.hpp"
 #include "shapespline/spline/state.hpp"
 
 namespace shapespline::spline {
@@ -28,6 +30,7 @@ template <int Degree>
 struct StateCurves {
     std::vector<SpanCurve<Degree>> curves;
     std::vector<double> intervals;
+    std::vector<int> spans;  // unwrapped
     // Whether the curve goes on across a knot of multiplicity >= degree there.
     std::vector<char> sharp_start, sharp_end;
 
@@ -46,6 +49,7 @@ struct StateCurves {
             basis.evaluate(&around[Degree - 1]);
             curves.emplace_back().combine(basis, points.data());
             intervals.push_back(state.interval(k));
+            spans.push_back(k);
             const bool begins = !state.closed && k == Degree;
             const bool ends = !state.closed && k + 1 == state.n_points();
             sharp_start.push_back(!begins && empty_intervals(state, k - 1, -1) >= Degree - 1);
@@ -128,6 +132,51 @@ template <int Degree>
 double interval_ratio(const StateCurves<Degree> &all) {
     const auto [low, high] = std::minmax_element(all.intervals.begin(), all.intervals.end());
     return *high / *low;
+}
+
+// Hooks of some spans; `search` are the data that the state knows the spans of.
+template <int Degree>
+long count_hooks(const SplineState<Degree> &state, const StateCurves<Degree> &part,
+                 const ArcPolyline &search, TurningSteps &turning) {
+    turning.clear();
+    for (std::size_t s = 0; s < part.curves.size(); ++s)
+        turning.add(
+            part.spans[s], [&](double u) { return part.curves[s].point(u); },
+            [&](double u) { return part.curves[s].tangent(u); }, -1.0, 1.0,
+            [](double, double, bool) {});
+    const long n = search.size();
+    return turning.hooks([&](Vec2 place, long span) {
+        // The foot may lie on a neighbour of the span.
+        long from = state.first_data(static_cast<int>(span) - 1) - 1L;
+        long to = state.first_data(static_cast<int>(span) + 2);
+        if (!search.closed) {
+            to = std::clamp(to, 1L, n - 1);
+            from = std::clamp(from, 0L, to - 1);
+        }
+        return turn_about(
+            place, [&](long j) { return search.point(static_cast<int>(j)); }, from, to,
+            search.closed ? from - n : 0, search.closed ? to + n : n - 1, turning.data_reach());
+    });
+}
+
+// Hooks that there are more after a removal than before, where spans first .. last were changed.
+template <int Degree>
+long new_hooks(const SplineState<Degree> &before, const SplineState<Degree> &after, int first,
+               int last, const ArcPolyline &search, TurningSteps &turning) {
+    constexpr int kBeside = 2;  // spans that hooks reach into
+    const auto count = [&](const SplineState<Degree> &state, int end) {
+        int begin = first - kBeside;
+        end += kBeside;
+        if (!state.closed) {
+            begin = std::max(begin, Degree);
+            end = std::min(end, state.n_points());
+        } else {
+            end = std::min(end, begin + state.n_points());
+        }
+        const StateCurves<Degree> part(state, begin, end);
+        return count_hooks(state, part, search, turning);
+    };
+    return count(after, last + 1) - count(before, last + 2);
 }
 
 // Chords within a flatness of the curve, of the spans whose hull meets a box.

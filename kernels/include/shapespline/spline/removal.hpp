@@ -29,7 +29,8 @@ class KnotRemoval {
         : settings_(settings),
           data_(arc_polyline(data, closed)),
           search_(search_polyline(data_, kThinning * settings.fit.tolerance,
-                                  data_.total / kSearchPoints)) {
+                                  data_.total / kSearchPoints)),
+          turning_(settings.fit.tolerance) {
         std::vector<Vec2> polyline = search_.points;
         if (closed) polyline.push_back(polyline.front());
         n_data_crossings_ = count_crossings(std::span<const Vec2>(polyline));
@@ -44,6 +45,7 @@ class KnotRemoval {
     bool from_polyline() const { return from_polyline_; }
     const RemovalCounts &counts() {
         counts_.iterations = fit_.iterations();
+        counts_.hooks = n_hooks_;
         return counts_;
     }
 
@@ -196,7 +198,8 @@ class KnotRemoval {
         return {bends.size() > kManyBends ? bends : even(24), even(37), even(56)};
     }
     bool start_is_fair() const {
-        return slowest_ >= settings_.fairness.speed_ratio && n_crossings_ <= n_data_crossings_;
+        return slowest_ >= settings_.fairness.speed_ratio && n_hooks_ == 0 &&
+               n_crossings_ <= n_data_crossings_;
     }
     void measure_fairness() {
         const StateCurves<Degree> all(state_);
@@ -206,6 +209,7 @@ class KnotRemoval {
         median_ = median_speed(all);
         slowest_ = slowest_speed(all, settings_.fairness.speed_ratio * median_) / median_;
         interval_ratio_ = interval_ratio(all);
+        n_hooks_ = count_hooks(state_, all, search_, turning_);
     }
     bool start_by_insertion(const std::vector<int> &knots, Interruption &interruption) {
         state_ = chord_length_spline<Degree>(search_, knots);
@@ -346,12 +350,16 @@ class KnotRemoval {
             ++counts_.missed_speed;
             return false;
         }
+        const long hooks = new_hooks(state_, candidate_, first, last, search_, turning_);
+        counts_.missed_hooks += hooks > 0;
+        if (hooks > 0) return false;
         const int n_crossings = n_crossings_ + new_crossings(part, all);
         if (n_crossings > std::max(n_data_crossings_, n_crossings_)) {
             ++counts_.missed_crossings;
             return false;
         }
         n_crossings_ = n_crossings;
+        n_hooks_ += hooks;
         slowest_ = slowest;
         interval_ratio_ = interval_ratio(all);
         return true;
@@ -378,6 +386,8 @@ class KnotRemoval {
     SplineState<Degree> state_, candidate_;
     bool from_polyline_ = false;
     int n_data_crossings_ = 0, n_crossings_ = 0;
+    TurningSteps turning_;
+    long n_hooks_ = 0;
     double median_ = 0.0, slowest_ = 0.0, interval_ratio_ = 0.0;  // slowest in medians
     Window<Degree> window_;
     PNormFit<Degree> fit_;

@@ -82,7 +82,9 @@ class RemovalSearch {
                     {"missed_bound", c.missed_bound},
                     {"missed_intervals", c.missed_intervals},
                     {"missed_speed", c.missed_speed},
-                    {"missed_crossings", c.missed_crossings}};
+                    {"missed_crossings", c.missed_crossings},
+                    {"missed_hooks", c.missed_hooks},
+                    {"hooks", c.hooks}};
         }
     };
 

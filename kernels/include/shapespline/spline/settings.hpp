@@ -28,6 +28,7 @@ struct SplineSettings {
 struct RemovalCounts {
     long ranks = 0, trials = 0, accepted = 0, refits = 0, iterations = 0;
     long missed_bound = 0, missed_intervals = 0, missed_speed = 0, missed_crossings = 0;
+    long missed_hooks = 0, hooks = 0;  // the last: that are left
 };
 
 }  // namespace shapespline::spline

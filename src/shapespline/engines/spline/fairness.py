@@ -1,4 +1,4 @@
-"""Fairness of a single spline: even knots, no near-cusp, no crossing that the data have not."""
+"""Fairness of a single spline: even knots, no near-cusp, no crossing or hook of its own."""
 
 from __future__ import annotations
 
@@ -21,13 +21,14 @@ class Fairness(NamedTuple):
     ``interval_ratio`` is the largest over the smallest non-zero knot interval, ``speed_ratio`` the
     slowest speed over its median (both with respect to the parameter, knots of multiplicity >=
     degree left out), ``n_crossings`` and ``n_data_crossings`` count self-crossings of curve and
-    data polyline.
+    data polyline, ``n_hooks`` the places where the curve turns back and the data do not.
     """
 
     interval_ratio: float
     speed_ratio: float
     n_crossings: int
     n_data_crossings: int
+    n_hooks: int = 0
 
     @property
     def kept(self) -> bool:
@@ -36,11 +37,12 @@ class Fairness(NamedTuple):
             self.interval_ratio <= INTERVAL_RATIO * (1 + 1e-9)
             and self.speed_ratio >= SPEED_RATIO * (1 - 1e-9)
             and self.n_crossings <= self.n_data_crossings
+            and self.n_hooks == 0
         )
 
 
-def fairness_of(curve: BSplineCurve, contour: Contour) -> Fairness:
-    """How fair a curve is, from dense samples of every span.
+def fairness_of(curve: BSplineCurve, contour: Contour, n_hooks: int = 0) -> Fairness:
+    """How fair a curve is, from dense samples of every span; its hooks the search has counted.
 
     Notes
     -----
@@ -70,4 +72,5 @@ def fairness_of(curve: BSplineCurve, contour: Contour) -> Fairness:
         slowest / median if median > 0 else 0.0,
         _kernels.count_crossings(np.ascontiguousarray(vertices)),
         _kernels.count_crossings(np.ascontiguousarray(contour.polyline)),
+        n_hooks,
     )

@@ -1,0 +1,152 @@
+// Hooks: places where a curve turns by more than 90 degrees within one tolerance of its length and
+// the data by less than 45 within six (PIE-26).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "shapespline/base/vec2.hpp"
+
+namespace shapespline {
+
+// The largest difference of the directions of a polyline's sides within `reach` of arc length about
+// the foot of a place. Side j leads from vertex j to j + 1; the foot is on a side of from .. to - 1,
+// sides of first .. last - 1 count.
+template <class Vertex>
+double turn_about(Vec2 place, Vertex &&vertex, long from, long to, long first, long last,
+                  double reach) {
+    const auto side = [&](long j) { return vertex(j + 1) - vertex(j); };
+    double nearest = INFINITY, share = 0.0;
+    long foot = from;
+    for (long j = from; j < to; ++j) {
+        const Vec2 begin = vertex(j), along = side(j);
+        const double length_sq = norm_sq(along);
+        const double s =
+            length_sq > 0.0 ? std::clamp(dot(place - begin, along) / length_sq, 0.0, 1.0) : 0.0;
+        const double distance_sq = norm_sq(begin + s * along - place);
+        if (distance_sq < nearest) nearest = distance_sq, share = s, foot = j;
+    }
+    double low = 0.0, high = 0.0;
+    for (const int way : {1, -1}) {
+        double turn = 0.0, length = (way > 0 ? 1.0 - share : share) * norm(side(foot));
+        for (long j = foot + way; length < reach && j >= first && j < last; j += way) {
+            const Vec2 before = side(j - way), after = side(j);
+            turn += std::atan2(cross(before, after), dot(before, after));
+            low = std::min(low, turn);
+            high = std::max(high, turn);
+            length += norm(after);
+        }
+    }
+    return high - low;
+}
+
+// A curve in steps, shorter where it bends, and how much it turns along each.
+class TurningSteps {
+  public:
+    explicit TurningSteps(double tolerance) : tolerance_(tolerance) {}
+
+    void clear() {
+        steps_.clear();
+        direction_ = {};
+    }
+
+    // Goes on along a part of the curve, point and velocity functions of its parameter. `owner` is
+    // what the data are asked by, `see` hears of the speeds at both ends of every step, and whether
+    // it is one of the first `kSteps`.
+    template <class Point, class Velocity, class See>
+    void add(long owner, Point &&point, Velocity &&velocity, double from, double to, See &&see) {
+        const double width = to - from;
+        for (int k = 0; k < kSteps; ++k)
+            look(owner, point, velocity, from + width * k / kSteps,
+                 from + width * (k + 1) / kSteps, kDepth, see);
+    }
+
+    void add_line(long owner, Vec2 begin, Vec2 end) {
+        turn_to(owner, end - begin, begin);
+        steps_.push_back({0.0, norm(end - begin), begin, owner});
+    }
+
+    // The number of hooks; `data_turn` of a place and owner tells how much the data turn within
+    // 2.5 tolerances on both sides of it.
+    template <class DataTurn>
+    long hooks(DataTurn &&data_turn) const {
+        long count = 0;
+        for (std::size_t i = 0; i < steps_.size(); ++i) {
+            const std::size_t end = sharp_from(i);
+            if (end == i) continue;
+            const std::size_t middle = (i + end - 1) / 2;
+            const Vec2 place = 0.5 * (steps_[i].place + steps_[end - 1].place);
+            if (data_turn(place, steps_[middle].owner) >= kDataTurn) continue;
+            ++count;
+            i = end - 1;
+        }
+        return count;
+    }
+    // Windows of a tolerance whose middle is up to half of one from the turn are looked at.
+    double data_reach() const { return kDataReach * tolerance_; }
+
+  private:
+    // Steps of a part, and how often they are halved where it bends.
+    static constexpr int kSteps = 8, kDepth = 8;
+    // Steps that turn by more are halved, down to a part of the tolerance.
+    static constexpr double kLargestTurn = 0.35, kShort = 1e-3;
+    static constexpr double kHookTurn = 0.5 * std::numbers::pi;
+    // Half of six tolerances less the half that windows are shifted by (PIE-27).
+    static constexpr double kDataTurn = 0.25 * std::numbers::pi, kDataReach = 2.5;
+
+    struct Step {
+        double turn, length;
+        Vec2 place;  // where it begins
+        long owner;
+    };
+
+    static double turn_between(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
+
+    // The turn between parts.
+    void turn_to(long owner, Vec2 direction, Vec2 place) {
+        if (!(norm_sq(direction) > 0.0)) return;
+        const double turn = turn_between(direction_, direction);
+        if (turn != 0.0) steps_.push_back({turn, 0.0, place, owner});
+        direction_ = direction;
+    }
+
+    template <class Point, class Velocity, class See>
+    void look(long owner, Point &&point, Velocity &&velocity, double from, double to, int depth,
+              See &&see) {
+        const Vec2 before = velocity(from), after = velocity(to), begin = point(from);
+        const double turn = turn_between(before, after), length = norm(point(to) - begin);
+        if (depth > 0 && std::fabs(turn) > kLargestTurn && length > kShort * tolerance_) {
+            const double middle = 0.5 * (from + to);
+            look(owner, point, velocity, from, middle, depth - 1, see);
+            look(owner, point, velocity, middle, to, depth - 1, see);
+            return;
+        }
+        see(norm(before), norm(after), depth == kDepth);
+        turn_to(owner, before, begin);
+        steps_.push_back({turn, length, begin, owner});
+        if (norm_sq(after) > 0.0) direction_ = after;
+    }
+
+    // One past the last of the fewest steps from i on that turn by more than a hook within one
+    // tolerance; i if there are none.
+    std::size_t sharp_from(std::size_t i) const {
+        double turn = 0.0, low = 0.0, high = 0.0, length = 0.0;
+        for (std::size_t k = i; k < steps_.size(); ++k) {
+            length += steps_[k].length;
+            if (length > tolerance_) return i;
+            turn += steps_[k].turn;
+            low = std::min(low, turn);
+            high = std::max(high, turn);
+            if (high - low > kHookTurn) return k + 1;
+        }
+        return i;
+    }
+
+    double tolerance_;
+    Vec2 direction_{};
+    std::vector<Step> steps_;
+};
+
+}  // namespace shapespline
