@@ -112,3 +112,33 @@ def test_curves_beside_slits_do_not_depend_on_the_first_point():
     ]
     for fit in fits[1:]:
         assert_array_equal(fit.control_points, fits[0].control_points)
+
+
+@pytest.mark.slow
+def test_weights_do_not_depend_on_the_first_point_and_the_direction():
+    points = flower(120).points
+    weights = np.ones(120)
+    weights[[7, 40, 41, 88]] = 30.0
+
+    def stored(order):
+        fit = ss.fit_curve(points[order], closed=True, tolerance="0.5%", weights=weights[order])
+        assert fit.kept
+        return sorted(np.concatenate([p.control_points for p in fit.pieces]).tolist())
+
+    order = np.arange(120)
+    assert stored(np.roll(order, 50)) == stored(order) == stored(order[::-1])
+
+
+@pytest.mark.slow
+def test_crossings_between_outlines_do_not_depend_on_the_first_point_and_the_direction():
+    outer, inner = flower(160).points, 0.985 * flower(160).points
+
+    def stored(step, by):
+        contours = [ss.Contour(np.roll(p, by, axis=0)[::step], closed=True) for p in (outer, inner)]
+        drawing = ss.fit_shape(ss.Shape(contours), tolerance="1%", effort="fast")
+        return [
+            sorted(np.concatenate([p.control_points for p in fit.pieces]).tolist())
+            for fit in drawing.fits
+        ]
+
+    assert stored(1, 33) == stored(1, 0) == stored(-1, 0)

@@ -46,6 +46,7 @@ OPTIONS = {
     "character": "fewest",
     "regularities": None,
     "simplify": True,
+    "smoothness": 2,
     "weights": WEIGHTS,
     "sigma": 0.05 / np.sqrt(WEIGHTS),
     "loss": "tukey",
@@ -84,6 +85,7 @@ EXPECTED = {
                 if goal != "within"
             ),
             ("symmetric", "within"),  # of an open outline
+            *(("smoothness", goal) for goal in DATA if goal != "within"),
             *(("knots", goal) for goal in DATA if goal != "of size"),
             *(("method", goal) for goal in ("within", "within, one spline")),
             *(("method", goal) for goal in ("estimate, clean", "estimate, noisy")),
@@ -172,6 +174,7 @@ ACT = {
         distance_to_curve(points[60:61], fit.curve, 1e-3)[0] < 1e-12
     ),
     "effort": lambda fit, points, goal: not same(fit, plain(goal)),
+    "smoothness": lambda fit, points, goal: not same(fit, plain(goal)),
     "weights": heavy_points_are_nearer,
     "sigma": heavy_points_are_nearer,
     "loss": lambda fit, points, goal: not same(fit, plain(goal)),

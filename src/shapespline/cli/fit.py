@@ -216,6 +216,9 @@ def fit(
             panel=FIT,
         ),
     ] = None,
+    smoothness: Annotated[
+        int, Option(min=1, max=2, help="2: curvature has no jumps.", panel=FIT)
+    ] = 1,
     regularities: Annotated[
         str,
         Option(
@@ -316,6 +319,7 @@ def fit(
         "character": character,
         "regularities": _regularities(regularities),
         "simplify": simplify,
+        "smoothness": smoothness,
         "outliers": outliers,
         "sigma": length_of(sigma),
         "loss": loss,

@@ -17,7 +17,7 @@ GOALS = ("tolerance", "n_control_points")
 # Options of a fit that no command can say are not in a file either.
 NAMES = (
     *GOALS, "degree", "corners", "form", "effort", "ends", "symmetric", "character", "regularities",
-    "simplify", "outliers", "sigma", "loss", "time_limit",
+    "simplify", "smoothness", "outliers", "sigma", "loss", "time_limit",
 )  # fmt: skip
 
 

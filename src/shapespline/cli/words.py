@@ -18,6 +18,7 @@ WORDS = (
         "; take more points or a larger tolerance",
     ),
     (r"\b(corners|form|ends|effort|unit|character)='([^']*)'", r"--\1 \2"),
+    (r"\bsmoothness=(\d)", r"--smoothness \1"),
     (r"\bwith weights or form=\S+", "with --form spline"),
     (
         r"\b(time_limit|arc_tolerance|safe_height|min_area|y_down|shared_boundaries)\b(?:=([^\s,;)]+))?",

@@ -42,6 +42,7 @@ def fit_curve(
     character: Character | None = None,
     regularities: str | Sequence[str] | None = "auto",
     simplify: bool = False,
+    smoothness: int = 1,
     effort: Effort = "balanced",
     weights: ArrayLike | None = None,
     sigma: ArrayLike | None = None,
@@ -109,6 +110,11 @@ def fit_curve(
     simplify : bool
         With "drawn", leave out features that the tolerance does not need: a fillet becomes a
         corner, an arc a line; equal features stay equal.
+    smoothness : {1, 2}
+        Tangents have no jump but in corners; or curvature has none either (G2), for surfaces that
+        are built on the curve. Within a tolerance, in pieces of degree 3 or more: a line or one
+        spline from corner to corner, at the price of points. Where the data are too rough for that
+        the status says so.
     effort : {"fast", "balanced", "smallest"}
         How long to search.
     weights : array_like, shape (n,), optional
@@ -180,6 +186,7 @@ def fit_curve(
         character=character,
         regularities=regularities,
         simplify=simplify,
+        smoothness=smoothness,
         effort=effort,
         weights=weights,
         sigma=sigma,

@@ -43,7 +43,8 @@ class Style:
     """How the curve is made: degree, form and corners (a word, or indices of the contour).
 
     ``character`` says whether structure comes before few points, ``regularities`` which may be
-    taken then, ``simplify`` whether features below the tolerance are left out.
+    taken then, ``simplify`` whether features below the tolerance are left out. ``smoothness`` is 1
+    where tangents have no jumps but in corners, 2 where curvature has none either.
     """
 
     degree: int = 3
@@ -52,6 +53,7 @@ class Style:
     character: Character = "fewest"
     regularities: tuple[str, ...] = NAMES
     simplify: bool = False
+    smoothness: int = 1
 
     @property
     def free(self) -> bool:

@@ -22,6 +22,7 @@ from shapespline.fitting.estimate import (
     WeightedSpline,
 )
 from shapespline.fitting.goals import Estimate, OfSize
+from shapespline.fitting.smooth import SmoothRuns
 from shapespline.fitting.strategies import (
     EVERY_POINT,
     LINES,
@@ -95,6 +96,9 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
         return
     if request.style.form == "arcs":
         yield LinesAndArcs(ask)
+        return
+    if request.style.smoothness == 2:
+        yield SmoothRuns(ask)
         return
     if request.pieces_only:
         yield from plan_pieces(problem, shortlist)

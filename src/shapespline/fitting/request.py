@@ -239,6 +239,25 @@ class Request:
             is_part=True,
         )
 
+    def read(self, order: IntArray, *, is_backwards: bool) -> Request:
+        """The same of the points in another order, without weights."""
+        contour, corners, kept = self.contour, self.style.corners, self.constraints
+        place = np.empty(len(order), dtype=np.int64)
+        place[order] = np.arange(len(order))
+        if not (corners is None or isinstance(corners, str)):
+            corners = np.sort(place[corners])
+        tangents = kept.tangents
+        if is_backwards:
+            begin, end = (None if t is None else -t for t in tangents)
+            tangents = (end, begin)
+        return replace(
+            self,
+            contour=Contour.trusted(contour.points[order], contour.closed, contour.accuracy),
+            style=replace(self.style, corners=corners),
+            constraints=kept._replace(through=np.sort(place[kept.through]), tangents=tangents),
+            weights=None,
+        )
+
     def closer(self, within: float, through: IntArray | None = None) -> Request:
         """The same within another distance, through some more points."""
         more = NO_INDICES if through is None else through
@@ -325,6 +344,7 @@ def _style(settings: Settings, contour: Contour) -> Style:
         "drawn" if settings.as_drawn else "fewest",
         names,
         settings.simplify,
+        settings.smoothness,
     )
 
 

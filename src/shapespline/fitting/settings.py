@@ -66,6 +66,7 @@ class Settings:
     character: Character | None = None
     regularities: str | Sequence[str] | None = "auto"
     simplify: bool = False
+    smoothness: int = 1
     effort: Effort = "balanced"
     weights: ArrayLike | None = None
     sigma: ArrayLike | None = None
@@ -91,6 +92,7 @@ class Settings:
             set_(self, name, checked_flag(name, getattr(self, name)))
         set_(self, "time_limit", checked_time_limit(self.time_limit))
         set_(self, "regularities", _regularities(self.regularities))
+        set_(self, "smoothness", _smoothness(self.smoothness))
         named_solver(self.method)
         if self.tolerance is not None:
             _checked_tolerance(self.tolerance)
@@ -155,6 +157,8 @@ class Settings:
             if self.symmetric:
                 raise InvalidInputError("symmetric acts with form='pieces' only")
         self._check_drawn()
+        if self.smoothness == 2:
+            self._check_smooth(within)
         held = self.end_tangents is not None and self.end_tangents != (None, None)
         if held and isinstance(self.corners, str) and self.corners == "free":
             raise InvalidInputError(
@@ -172,6 +176,30 @@ class Settings:
             )
         if self.symmetric:
             raise InvalidInputError("symmetric acts with form='pieces' only")
+
+    def _check_smooth(self, within: bool) -> None:
+        """Raise if joints cannot be continuous in curvature beside the other options."""
+        if not within:
+            raise InvalidInputError("smoothness=2 acts within a tolerance: give one")
+        if self.degree < 3:
+            raise InvalidInputError(
+                f"degree must be 3 or more for smoothness=2, got {self.degree}: the curvature of"
+                " parabolas jumps from one to the next"
+            )
+        if self.form != "pieces" or self.character == "drawn" or self.simplify:
+            raise InvalidInputError(
+                "smoothness=2 acts with form='pieces' and character='fewest' only: one spline is as"
+                " smooth anyway, lines and arcs are not"
+            )
+        if isinstance(self.corners, str) and self.corners == "free":
+            raise InvalidInputError(
+                "smoothness=2 does not act with corners='free': joints are free there"
+            )
+        if self._has("end_tangents", "through", "symmetric"):
+            raise InvalidInputError(
+                "smoothness=2 holds no tangents, points or symmetry: leave end_tangents, through"
+                " and symmetric out"
+            )
 
     def _check_drawn(self) -> None:
         """Raise if the shape cannot be given as it was drawn beside the other options."""
@@ -213,6 +241,7 @@ class Settings:
             return self.character == "drawn"
         kept = self._has("end_tangents", "through", "symmetric") or self.ends == "fixed"
         finds_corners = isinstance(self.corners, str) and self.corners == "auto"
+        kept = kept or self.smoothness == 2
         return self.degree >= 3 and finds_corners and not (self._one_spline or kept)
 
     @property
@@ -328,6 +357,16 @@ def _directions(
         x, y = (given / length).tolist()
         found.append((x, y))
     return found[0], found[1]
+
+
+def _smoothness(value: object) -> int:
+    """1 or 2 as a number of Python."""
+    if isinstance(value, bool) or not is_number(value) or value not in (1, 2):
+        raise InvalidInputError(
+            "smoothness must be 1 (tangents have no jumps) or 2 (curvature has none either),"
+            f" got {value!r}"
+        )
+    return int(value)  # type: ignore[call-overload,no-any-return]
 
 
 def _regularities(value: object) -> str | tuple[str, ...] | None:

@@ -48,6 +48,7 @@ def fit_shape(
     character: Character | None = None,
     regularities: str | Sequence[str] | None = "auto",
     simplify: bool = False,
+    smoothness: int = 1,
     outliers: bool = False,
     sigma: ArrayLike | None = None,
     loss: Loss | None = None,
@@ -68,7 +69,7 @@ def fit_shape(
     n_control_points : int, optional
         Number of control points of each curve; chosen for each contour when neither is given.
     degree, corners, form, effort, method, callback, time_limit, ends, symmetric, character,
-    regularities, simplify, outliers
+    regularities, simplify, smoothness, outliers
         See `fit_curve`; the limit is that of each contour.
     sigma, loss
         See `fit_curve`; of several contours a length, the error of all points.
@@ -112,6 +113,7 @@ def fit_shape(
         character=character,
         regularities=regularities,
         simplify=simplify,
+        smoothness=smoothness,
         effort=effort,
         outliers=outliers,
         sigma=sigma,
@@ -142,6 +144,10 @@ class DrawingRequest:
         shared = checked_flag("shared_boundaries", shared_boundaries)
         if shared and (settings.tolerance is None or settings.outliers):
             raise InvalidInputError("shared_boundaries need a tolerance, and exclude outliers")
+        if shared and settings.smoothness == 2:
+            raise InvalidInputError(
+                "smoothness=2 does not act with shared_boundaries: borders meet where they must"
+            )
         if settings.sigma is not None and len(shape) > 1 and np.ndim(settings.sigma):
             raise InvalidInputError(
                 f"sigma must be one length for the {len(shape)} contours of a shape, got shape"
@@ -191,7 +197,7 @@ def _solved(
     if tolerance is not None:
         tolerance = tolerance_length(tolerance, request.shape.contours[0])
     fits, found = across_outlines(fits, allowed, tolerance)
-    apart = uncrossed(request.shape.contours, fits, requests[0], ask)
+    apart = uncrossed(fits, requests[0], ask)
     same = {k for k, (one, now) in enumerate(zip(fits, apart, strict=True)) if one is now}
     return apart, tuple(one for one in found if same.issuperset(one.pieces))
 

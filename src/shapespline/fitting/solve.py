@@ -38,7 +38,8 @@ def solve(request: Request, monitor: Monitor) -> Fit:
     """
     ask = partial(answer, monitor=monitor)
     fit = None
-    if request.tolerance is not None and request.is_plain and len(request.contour) >= MANY_POINTS:
+    chunks = request.is_plain and request.style.smoothness == 1
+    if request.tolerance is not None and chunks and len(request.contour) >= MANY_POINTS:
         fit = streamed(request, monitor, search)
         fit = None if fit is None else told(fit)
     if fit is None or not (fit.kept or monitor.ended):

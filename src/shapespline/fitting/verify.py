@@ -7,14 +7,15 @@ brings those of its own curve; a tangent that was asked for is compared with the
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.geometry import joined, two_sided_distance
+from shapespline.geometry import joined, turn_between, two_sided_distance
 from shapespline.monitor import End
 from shapespline.solvers import Stop
-from shapespline.values import EXACT_TURN, Fit, Status
+from shapespline.values import CORNER_TURN, EXACT_TURN, Fit, Status
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -122,6 +123,14 @@ def verify(candidate: Candidate, request: Request) -> Verified:
         fit = replace(fit, uncertainty=candidate.uncertainty)
     if candidate.regularities:
         fit = replace(fit, regularities=candidate.regularities)
+    if request.style.smoothness == 2 and (count := _n_jumps(fit)):
+        fit = replace(
+            fit,
+            status=Status.EXCEEDED.saying(
+                f"curvature may jump in {count} places that are no corners: {fit.status.value};"
+                " take a larger tolerance"
+            ),
+        )
     error = _tangent_error(fit.pieces, request.constraints)
     if error:
         turn = np.degrees(error)
@@ -147,6 +156,25 @@ def _tangent_error(pieces: Sequence[Piece], constraints: Constraints) -> float:
             rounding = ROUNDINGS * np.abs(b).max() / max(float(np.hypot(vx, vy)), TINY)
             errors.append(error if error > max(EXACT_TURN, rounding) else 0.0)
     return max(errors)
+
+
+def _n_jumps(fit: Fit) -> int:
+    """Joints that are no corners, and knots inside of pieces that are not simple enough."""
+    curves = [fit.spline] if not fit.sections else fit.sections
+    count = 0
+    for curve in curves:
+        begin, end = (curve.knots[i] for i in (curve.degree, -curve.degree - 1))
+        inner = curve.knots[(begin < curve.knots) & (curve.knots < end)]
+        _, repeated = np.unique(inner, return_counts=True)
+        count += int((repeated > curve.degree - 2).sum())
+    if fit.sections:
+        joints = list(pairwise(fit.sections))
+        if fit.closed:
+            joints.append((fit.sections[-1], fit.sections[0]))
+        count += sum(abs(turn_between(*joint)) <= CORNER_TURN for joint in joints)
+    elif fit.closed and not fit.spline.periodic:
+        count += 1
+    return count
 
 
 def verified_fit(

@@ -10,6 +10,7 @@ from shapespline.values.knots import (
     check_degree,
     clamped_knots,
     greville_abscissae,
+    on_grid,
     periodic_knots,
 )
 from shapespline.values.piece import CORNER_TURN, EXACT_TURN, SAME_FACTOR, SMOOTH_TURN, Piece
@@ -46,6 +47,7 @@ __all__ = [
     "clamped_knots",
     "greville_abscissae",
     "nesting_depth",
+    "on_grid",
     "periodic_knots",
     "with_knot",
 ]

@@ -21,6 +21,23 @@ if TYPE_CHECKING:
 MAX_DEGREE = _kernels.MAX_DEGREE
 
 
+# Knots of what is found are whole parts of this: then 1 - u is exact, and a curve turned around
+# twice is the same (PIE-25).
+KNOT_GRID = 2.0**52
+
+
+def on_grid(knots: FloatArray) -> FloatArray:
+    """Knots over [0, 1] rounded to whole parts of `KNOT_GRID`.
+
+    Examples
+    --------
+    >>> knots = on_grid(np.array([0.0, 1 / 3, 1.0]))
+    >>> bool((1.0 - (1.0 - knots) == knots).all())
+    True
+    """
+    return np.asarray(np.round(knots * KNOT_GRID) / KNOT_GRID)
+
+
 def check_degree(degree: int) -> int:
     """The degree as an int, or an error that names the range."""
     number = whole_number(degree)

@@ -11,7 +11,7 @@ from shapespline import _kernels
 from shapespline.analysis import LEAST_TURN
 from shapespline.engines.pieces.end_tangents import extended, without_extensions
 from shapespline.engines.pieces.tangents import aligned
-from shapespline.values import Piece
+from shapespline.values import Piece, on_grid
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
 # A piece shorter than this part of the curve is degenerate: rounding made it.
 DEGENERATE_PART = 1e-12
-# Knots are whole parts of this: then 1 - u is exact, and pieces turned around twice are the same
-# (PIE-25).
-KNOT_GRID = 2.0**52
 # The search gives up a corner that the fit turns by less than this part of `LEAST_TURN`.
 RELEASE = 0.7
 # Control points move by at most this part of the tolerance to make a tangent exact. That moves a
@@ -142,7 +139,7 @@ def _unpacked(
     degrees: list[int], counts: list[int], knots: FloatArray, coordinates: FloatArray
 ) -> tuple[Piece, ...]:
     """Pieces from the kernel's arrays end to end."""
-    knots = np.round(knots * KNOT_GRID) / KNOT_GRID
+    knots = on_grid(knots)
     pieces = []
     k = m = 0
     points = coordinates.reshape(-1, 2)

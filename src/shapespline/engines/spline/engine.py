@@ -16,7 +16,7 @@ import numpy as np
 
 from shapespline import _kernels
 from shapespline.engines.spline.fairness import INTERVAL_RATIO, SPEED_RATIO, Fairness, fairness_of
-from shapespline.values import BSplineCurve, periodic_knots
+from shapespline.values import BSplineCurve, on_grid, periodic_knots
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -171,8 +171,9 @@ def attempts(
         if search is None:
             return
         curve = _exported(search, thinned, contour, degree)
-        fairness = fairness_of(curve, thinned.contour)
-        kept = yield SplineAttempt(curve, fairness, search.counts())
+        counts = search.counts()
+        fairness = fairness_of(curve, thinned.contour, counts["hooks"])
+        kept = yield SplineAttempt(curve, fairness, counts)
         if monitor.ended or (kept and (fairness.kept or not fair)):
             return
         if not kept:
@@ -256,7 +257,7 @@ def _exported(
     points = np.array(coordinates).reshape(-1, 2)
     if not contour.closed:
         knots = np.concatenate([[0.0], np.cumsum(intervals)])
-        knots /= knots[-1]
+        knots = on_grid(knots / knots[-1])
         knots[len(points) :] = 1.0  # rounding
         restored = normalized.restored_curve(BSplineCurve(knots, points, degree))
         points = restored.control_points.copy()
@@ -265,7 +266,7 @@ def _exported(
     simple = (intervals > 0) & (np.roll(intervals, 1) > 0)
     seam = int(np.argmax(simple)) if simple.any() else int(np.argmax(intervals > 0))
     period = np.concatenate([[0.0], np.cumsum(np.roll(intervals, -seam))])
-    knots = periodic_knots(len(points), degree, period / period[-1])
+    knots = periodic_knots(len(points), degree, on_grid(period / period[-1]))
     points = np.roll(points, degree - seam, axis=0)
     curve = normalized.restored_curve(BSplineCurve(knots, points, degree, periodic=True))
     return curve if simple.any() else curve.clamped()

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.analysis import canonical_reading
 from shapespline.engines.pieces import through_all
 from shapespline.fitting.repair.assignment import (
     AssignedPiece,
@@ -23,6 +22,7 @@ from shapespline.fitting.repair.assignment import (
     line_of,
 )
 from shapespline.fitting.repair.clearance import Sides, moved
+from shapespline.fitting.repair.reading import Reading
 from shapespline.fitting.repair.refit import (
     Refit,
     Window,
@@ -32,15 +32,7 @@ from shapespline.fitting.repair.refit import (
     windows_around,
 )
 from shapespline.fitting.verify import verified_fit
-from shapespline.geometry import (
-    backwards,
-    crossing_pairs,
-    joined,
-    nearest,
-    reversed_curve,
-    self_crossings,
-)
-from shapespline.values import Contour
+from shapespline.geometry import crossing_pairs, joined, nearest, self_crossings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -48,7 +40,7 @@ if TYPE_CHECKING:
     from shapespline.fitting.repair.assignment import DataRun
     from shapespline.fitting.request import Request
     from shapespline.typing import FloatArray
-    from shapespline.values import Fit
+    from shapespline.values import Contour, Fit
 
 
 class Step(NamedTuple):
@@ -81,33 +73,14 @@ CROSSES = "it crosses a curve where the data do not"
 def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
     """A fit of one outline in pieces that crosses itself no more than its data.
 
-    Points are read in their canonical order: what is repaired does not depend on which of them
-    comes first and which way they run. Where it cannot be repaired its status says so.
+    Where it cannot be repaired its status says so.
     """
     if not request.is_plain or request.style.form == "spline":
         return told(fit)
     if not self_crossings(_line(fit)):
         return fit
-    contour = request.contour
-    start, step = canonical_reading(contour.points, closed=contour.closed)
-    order = (start + step * np.arange(len(contour))) % len(contour)
-    read = Contour.trusted(contour.points[order], contour.closed, contour.accuracy)
-    turned = _turned(replace(fit, contour=read), step)
-    (found,) = uncrossed([read], [turned], request, ask)
-    if found is turned:
-        return fit
-    if found.sections is turned.sections:
-        return replace(fit, status=found.status)
-    pieces = _turned(found, step).sections
-    again = verified_fit(
-        contour,
-        joined(pieces, fit.degree),
-        tolerance=fit.tolerance,
-        method=fit.method,
-        sections=pieces,
-        history=fit.history,
-    )
-    return _told(again) if found.status.value.endswith(CROSSES) else again
+    (found,) = uncrossed([fit], request, ask)
+    return found
 
 
 def told(fit: Fit) -> Fit:
@@ -116,32 +89,29 @@ def told(fit: Fit) -> Fit:
     return _told(fit) if count and count > self_crossings(fit.contour.polyline) else fit
 
 
-def _turned(fit: Fit, step: int) -> Fit:
-    """The curve of a fit, run through the other way where points are read by steps of -1."""
-    if step > 0:
-        return fit
-    pieces = backwards(fit.sections)
-    # Joined anew: to the bit what pieces that were found in this order make.
-    spline = joined(pieces, fit.degree) if pieces else reversed_curve(fit.spline)
-    return replace(fit, spline=spline, sections=pieces)
-
-
-def uncrossed(
-    contours: Sequence[Contour],
-    fits: Sequence[Fit],
-    request: Request,
-    ask: Callable[[Request], Fit],
-) -> list[Fit]:
+def uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], Fit]) -> list[Fit]:
     """Fits whose curves cross no more than their data, as far as other pieces bring that about.
 
     ``ask`` answers sub-requests in the style of ``request``. Of the rows tried the one with the
-    fewest parts that cross is taken. Fits that cross after all say so in their status.
+    fewest parts that cross is taken. Fits that cross after all say so in their status. Points are
+    read in their canonical order: what is repaired does not depend on which of them comes first and
+    which way they run.
     """
-    refit = Refit(request, ask)
-    lines = [_line(fit) for fit in fits]
-    pairs = _new_crossings(contours, lines)
-    if not pairs:
+    if not _new_crossings([fit.contour for fit in fits], [_line(fit) for fit in fits]):
         return list(fits)
+    readings = [Reading.of(fit.contour) for fit in fits]
+    read = [reading.fit(fit) for reading, fit in zip(readings, fits, strict=True)]
+    found = _uncrossed(read, request, ask)
+    return [
+        reading.restored(*each) for reading, *each in zip(readings, fits, read, found, strict=True)
+    ]
+
+
+def _uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], Fit]) -> list[Fit]:
+    """The same of fits in canonical order."""
+    refit = Refit(request, ask)
+    contours, lines = [fit.contour for fit in fits], [_line(fit) for fit in fits]
+    pairs = _new_crossings(contours, lines)
     sides = Sides.of([fit.contour for fit in fits])
     begun: dict[int, PieceAssignment] = {}
     rows: dict[int, PieceAssignment] = {}
@@ -155,7 +125,8 @@ def uncrossed(
             if owner not in best or count < best[owner][0]:
                 best[owner] = count, row
         owners = [owner for owner in found if fits[owner].method in FOLLOWING]
-        if step is None or not owners:
+        # Windows meet their neighbours in tangents, not in curvature.
+        if step is None or not owners or request.style.smoothness == 2:
             break
         for owner in owners:
             rows[owner] = _fitted_again(rows[owner], found[owner], step, sides, refit)

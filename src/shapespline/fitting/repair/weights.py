@@ -13,6 +13,7 @@ import numpy as np
 
 from shapespline.engines.least_squares import given_weights
 from shapespline.fitting.repair.assignment import PieceAssignment
+from shapespline.fitting.repair.reading import Reading
 from shapespline.fitting.repair.refit import (
     Refit,
     Window,
@@ -85,13 +86,20 @@ def respect_weights(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -
     """A fit within a tolerance that comes as near to heavy points as their weights say."""
     if request.weights is None or request.tolerance is None:
         return fit
+    # In canonical order: what is held does not depend on which point of the data is the first.
+    reading = Reading.of(request.contour)
     limits = Limits.of(request.weights, request.contour, request.tolerance)
-    apart = request.is_plain and request.style.form != "spline"
+    limits = limits._replace(lengths=limits.lengths[reading.order])
+    asked = request.read(reading.order, is_backwards=reading.is_backwards)
+    style = request.style
+    apart = request.is_plain and style.form != "spline" and style.smoothness == 1
 
     def whole(within: float, through: IntArray | None) -> Fit:
-        return ask(request.closer(within, through))
+        return ask(asked.closer(within, through))
 
-    return weighted(fit, limits, Refit(request, ask) if apart else None, whole)
+    read = reading.fit(fit)
+    found = weighted(read, limits, Refit(asked, ask) if apart else None, whole)
+    return reading.restored(fit, read, found)
 
 
 def weighted(fit: Fit, limits: Limits, refit: Refit | None, whole: Whole) -> Fit:

@@ -1,0 +1,64 @@
+"""Repairs read points in canonical order, whichever is first and whichever way they run."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.analysis import canonical_reading
+from shapespline.fitting.verify import verified_fit
+from shapespline.geometry import backwards, joined, reversed_curve
+from shapespline.values import Contour
+
+if TYPE_CHECKING:
+    from shapespline.typing import IntArray
+    from shapespline.values import Fit
+
+
+class Reading(NamedTuple):
+    """The canonical order of a contour's points, and whether the data run the other way."""
+
+    order: IntArray
+    is_backwards: bool
+
+    @classmethod
+    def of(cls, contour: Contour) -> Reading:
+        """The order of a contour."""
+        start, step = canonical_reading(contour.points, closed=contour.closed)
+        return cls((start + step * np.arange(len(contour))) % len(contour), step < 0)
+
+    def contour(self, contour: Contour) -> Contour:
+        """The contour with its points in this order."""
+        return Contour.trusted(contour.points[self.order], contour.closed, contour.accuracy)
+
+    def fit(self, fit: Fit) -> Fit:
+        """A fit of the contour as one of the contour in this order."""
+        return self._turned(replace(fit, contour=self.contour(fit.contour)))
+
+    def restored(self, fit: Fit, read: Fit, found: Fit) -> Fit:
+        """What a repair found for a fit that was ``read``, as one of the data as they are."""
+        if found is read:
+            return fit
+        if found.sections is read.sections and found.spline is read.spline:
+            return replace(fit, status=found.status)
+        turned = self._turned(found)
+        again = verified_fit(
+            fit.contour,
+            turned.spline,
+            tolerance=fit.tolerance,
+            method=found.method,
+            sections=turned.sections,
+            history=found.history,
+        )
+        return replace(again, status=found.status, outliers=fit.outliers)
+
+    def _turned(self, fit: Fit) -> Fit:
+        """The curve of a fit, run through the other way where the data are."""
+        if not self.is_backwards:
+            return fit
+        pieces = backwards(fit.sections)
+        # Joined anew: to the bit what pieces that were found in this order make.
+        spline = joined(pieces, fit.degree) if pieces else reversed_curve(fit.spline)
+        return replace(fit, spline=spline, sections=pieces)
