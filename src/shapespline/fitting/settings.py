@@ -366,7 +366,7 @@ def _smoothness(value: object) -> int:
             "smoothness must be 1 (tangents have no jumps) or 2 (curvature has none either),"
             f" got {value!r}"
         )
-    return int(value)  # type: ignore[call-overload,no-any-return]
+    return int(value)
 
 
 def _regularities(value: object) -> str | tuple[str, ...] | None:
