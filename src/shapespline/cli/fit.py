@@ -216,9 +216,7 @@ def fit(
             panel=FIT,
         ),
     ] = None,
-    smoothness: Annotated[
-        int, Option(min=1, max=2, help="2: curvature has no jumps.", panel=FIT)
-    ] = 1,
+    smoothness: Annotated[int, Option(least=1, most=2, help="2: G2 joints.", panel=FIT)] = 1,
     regularities: Annotated[
         str,
         Option(
