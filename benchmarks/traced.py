@@ -28,6 +28,7 @@ from PIL import Image, ImageOps
 from scipy.spatial import cKDTree
 
 import shapespline as ss
+from shapespline.tracing.coverage import border_coverage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -164,6 +165,21 @@ def ours(
     return Result(n_points, *distances(samples, outline), seconds), drawing
 
 
+def rendered_back(drawing: ss.Drawing, picture: Image.Image) -> float:
+    """Mean difference of the drawing, drawn by area coverage, to its picture, of 255."""
+    width, height = picture.size
+    outlines = [
+        np.clip(np.concatenate([bezier(piece, 4 * STEP) for piece in fit.spline.beziers().points]),
+                0, (width, height))
+        for fit in drawing
+    ]  # fmt: skip
+    keys, part = border_coverage(outlines, height, width)
+    seen = 1.0 - np.asarray(black_on_white(picture), dtype=float) / 255.0
+    ours = np.rint(seen).ravel()
+    ours[keys] = part
+    return 255.0 * float(np.abs(ours - seen.ravel()).mean())
+
+
 def black_on_white(picture: Image.Image) -> Image.Image:
     """Grey, on white ground, the shape dark."""
     ground = Image.new("L", picture.size, 255)
@@ -238,13 +254,14 @@ def table(
     )
     print("| picture | truth | ours: points | rms | worst | s | potrace: points | rms | worst |")
     print("|---|---|---|---|---|---|---|---|---|")
-    ratios, misses = [], []
+    ratios, misses, back = [], [], []
     for path, picture in pairs:
         image = picture
         if one_bit:
             image = black_on_white(image).point(lambda value: 255 * (value >= 128)).convert("1")
         outline = truth(path, pixels)
-        found, _ = ours(image, outline, tolerance)
+        found, drawing = ours(image, outline, tolerance)
+        back.append(rendered_back(drawing, image))
         other = potrace(image, outline)
         name = path.name.removesuffix(".truth.json")
         theirs = (
@@ -274,6 +291,10 @@ def table(
             f"\nGeometric mean against potrace: points {mean[0]:.2f}, rms {mean[1]:.2f},"
             f" worst {mean[2]:.2f}"
         )
+    print(
+        f"\nRendered back: mean difference to the picture {np.mean(back):.2f} of 255,"
+        f" largest {max(back):.2f}"
+    )
     print(
         f"\nTo reach: rms 0.25, worst 0.75, points 1.2 times the truth's;"
         f" {len(pairs) - len(misses)} of {len(pairs)} do."
