@@ -6,8 +6,9 @@ Light: words in two fonts under no light at all, lamps from the left and vignett
 strengths, with and without grain; right is what has the parts and holes of the word. Said is how
 often the program finds the light uneven, of those lit evenly and of the others.
 
-Specks: a word beside 40 dots of 2 x 2 pixels, half as dark to fully dark, on grain of several
-deviations (of 255); dots kept, and outlines that are neither dots nor of the word. The threshold
+Specks: a word beside 40 dots of 2 x 2 pixels, 60 % as dark to fully dark, and a ground that passes
+the level slowly, all under grain of several deviations (of 255); dots kept, and outlines that are
+neither dots nor of the word, of which one is the border of that ground. The threshold
 that stands in the program is marked.
 """
 
@@ -84,7 +85,8 @@ def dotted(noise: float) -> tuple[NDArray[np.uint8], NDArray[np.float64], int]:
     """A word and dots on grain, where the dots are (y up), and how high the word begins."""
     rng = np.random.default_rng(int(10 * noise))
     word = drawn("gizmo & jäger", FONTS[0], 40)
-    image = np.full((word.shape[0] + 120, max(word.shape[1], 420)), 255.0)
+    image = np.full((word.shape[0] + 160, max(word.shape[1], 420)), 255.0)
+    image[-40:] = np.linspace(80, 200, image.shape[1])
     image[: word.shape[0], : word.shape[1]] = word
     places = []
     for index in range(DOTS):

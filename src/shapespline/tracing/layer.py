@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     Part: TypeAlias = int | slice | IntArray
     Key: TypeAlias = Part | tuple[Part, Part]
 
-# Pixels of a strip: what is made of it for a while, some twenty bytes for each, fits any memory (TRC-15).
+# Pixels of a strip: what is made of it for a while, twenty bytes for each, fits anywhere (TRC-15).
 STRIP = 4_000_000
 FLOAT_BINS = 1024
 

@@ -34,7 +34,8 @@ BLOCKS, GROUND_PART = 48, 0.1
 DEGREE, ROUNDS, BELOW = 4, 8, 3.0
 # A level line runs along an edge if the values across it differ by this part of the contrast within
 # so many pixels. Lines of which more than this part runs along none show that one level is wrong;
-# another way is better if it leaves less than this, and less than this part of what there was.
+# another way is better if it leaves less than this, and less than this part of what there was
+# (TRC-17).
 EDGE, REACH, ALONG_NOTHING, BETTER = 0.35, 3, 0.12, 0.6
 
 

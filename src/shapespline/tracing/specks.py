@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # An outline is a speck if no pixel along it is farther beyond the level than this part of the
-# contrast, what an edge leaves of itself in one pixel, and this many deviations of the noise.
+# contrast, what an edge leaves of itself in one pixel, and this many deviations of the noise
+# (TRC-17).
 FAINT, DEVIATIONS = 0.05, 5.0
 # Larger ones are no specks, however faint: at most this part of the picture, within these bounds.
 LARGEST_PART, LARGEST = 0.0005, (8.0, 400.0)
