@@ -28,9 +28,10 @@ def hooks(curve: Any, points: Array, *, closed: bool, tolerance: float) -> Array
     """Places where a curve turns back and the data do not, shape (k, 2).
 
     The curve turns by more than 90 degrees within one tolerance of arc length; the data, at the
-    nearest of their points, by less than 45 degrees within six. Both turns are the largest
-    difference of two directions: of chords of the curve, a sixteenth of the tolerance long, and of
-    the sides of the data polyline. One place for each run of such chords.
+    nearest of their points, by less than 45 degrees within six. Where data pass several times
+    within a tolerance the pass that turns most counts: the curve may stand for it. Both turns are
+    the largest difference of two directions: of chords of the curve, a sixteenth of the tolerance
+    long, and of the sides of the data polyline. One place for each run of such chords.
     """
     step = tolerance / CHORDS
     even = _even(polyline_of(curve, step), step)
@@ -43,7 +44,10 @@ def hooks(curve: Any, points: Array, *, closed: bool, tolerance: float) -> Array
     middle = sharp + CHORDS // 2
     last = len(even) - 1
     middles = even[middle % last if closed else np.minimum(middle, last)]
-    calm = data_turn(points, middles, closed=closed, reach=DATA_REACH * tolerance) < DATA_TURN
+    calm = (
+        data_turn(points, middles, closed=closed, reach=DATA_REACH * tolerance, near=tolerance)
+        < DATA_TURN
+    )
     found = sharp[calm]
     first = np.flatnonzero(np.diff(found, prepend=-2 * CHORDS) > CHORDS)
     return middles[calm][first]
@@ -73,33 +77,51 @@ def _largest_turn(angles: Array, count: int) -> Array:
     return np.ptp(windows, axis=1)
 
 
-def data_turn(points: Array, places: Array, *, closed: bool, reach: float) -> Array:
+def data_turn(
+    points: Array, places: Array, *, closed: bool, reach: float, near: float = 0.0
+) -> Array:
     """Largest difference of two directions of the data around the foot of each place.
 
     The foot is the nearest point of the data polyline; sides within half of ``reach`` of arc length
-    on both sides of it count.
+    on both sides of it count. Of passes of the data that come as ``near`` as that, each has a foot,
+    and the largest difference counts.
     """
+    if not len(places):
+        return np.zeros(0)
     polyline = np.concatenate([points, points[:1]]) if closed else points
     keep = np.concatenate([[True], np.hypot(*np.diff(polyline, axis=0).T) > 0])
     polyline = polyline[keep]
     at = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(polyline, axis=0).T))])
     angles = _directions(polyline, closed=False)
-    stations = np.array([_station(place, polyline, at) for place in places])
+    passes = [_stations(place, polyline, at, near) for place in places]
+    owner = np.repeat(np.arange(len(places)), [len(found) for found in passes])
+    stations = np.concatenate(passes)
     if closed:  # three times around, each time with the same whole turns more
         whole, length = _directions(polyline, closed=True)[len(angles)] - angles[0], at[-1]
         angles = np.concatenate([angles + k * whole for k in (-1, 0, 1)])
         at = np.concatenate([at[:-1] - length, at[:-1], at + length])
     first = np.maximum(np.searchsorted(at, stations - reach / 2, side="right") - 1, 0)
     last = np.minimum(np.searchsorted(at, stations + reach / 2, side="left"), len(angles))
-    return np.array([np.ptp(angles[a : max(b, a + 1)]) for a, b in zip(first, last, strict=True)])
+    turn = np.zeros(len(places))
+    for k, a, b in zip(owner, first, last, strict=True):
+        turn[k] = max(turn[k], np.ptp(angles[a : max(b, a + 1)]))
+    return turn
 
 
-def _station(place: Array, polyline: Array, at: Array) -> float:
-    """Arc length of the point of a polyline nearest to a place, every side tried."""
+def _stations(place: Array, polyline: Array, at: Array, near: float) -> Array:
+    """Arc length of the nearest point of each pass of a polyline that comes so near to a place.
+
+    If none does, of the nearest point at all; every side is tried.
+    """
     side, offset = np.diff(polyline, axis=0), place - polyline[:-1]
     share = np.clip((offset * side).sum(axis=1) / (side**2).sum(axis=1), 0, 1)
-    k = int(np.argmin(np.hypot(*(offset - share[:, None] * side).T)))
-    return float(at[k] + share[k] * (at[k + 1] - at[k]))
+    away = np.hypot(*(offset - share[:, None] * side).T)
+    station = at[:-1] + share * np.diff(at)
+    within = max(near, away.min())
+    sides = np.flatnonzero(away <= within)
+    # Data that turn back on the way pass twice, too.
+    runs = np.split(sides, np.flatnonzero(np.diff(station[sides]) > 2 * within) + 1)
+    return station[[run[np.argmin(away[run])] for run in runs]]
 
 
 def speed_ratio(curve: Any) -> float:

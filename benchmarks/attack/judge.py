@@ -84,8 +84,8 @@ def judged(drawn: Drawn, options: dict[str, Any], *, thorough: bool = True) -> s
         return found
     found |= _constraints(fit, drawn.points, options)
     if thorough:
-        found |= _looks(fit, options["tolerance"])
-        if not ({"through", "corners", "weights", "end_tangents"} & options.keys()):
+        found |= _looks(fit, options)
+        if not ({"through", "corners", "end_tangents"} & options.keys()):
             found |= _invariance(fit, drawn, options)
     return found
 
@@ -152,17 +152,27 @@ def _constraints(fit: ss.Fit, points: Array, options: dict[str, Any]) -> set[str
     return found
 
 
-def _looks(fit: ss.Fit, tolerance: float) -> set[str]:
-    curve, data, closed = fit.pieces, fit.contour.points, fit.contour.closed
+def _looks(fit: ss.Fit, options: dict[str, Any]) -> set[str]:
+    curve, data, tolerance = fit.pieces, fit.contour.points, options["tolerance"]
     found = set()
-    fine = tolerance >= HOOKS_FROM * np.hypot(*np.ptp(data, axis=0))
-    if fine and len(hooks(curve, data, closed=closed, tolerance=tolerance)):
-        found.add("hook")
+    if tolerance >= HOOKS_FROM * np.hypot(*np.ptp(data, axis=0)):
+        places = hooks(curve, data, closed=fit.contour.closed, tolerance=tolerance)
+        if len(_unasked(places, fit, options)):
+            found.add("hook")
     if speed_ratio(curve) < NEAR_CUSP:
         found.add("near-cusp")
     if smallest_radius(curve) < SMALL_RADIUS * tolerance:
         found.add("small radius")
     return found
+
+
+def _unasked(places: Array, fit: ss.Fit, options: dict[str, Any]) -> Array:
+    """Those that are not within a tolerance of an end whose tangent was asked for."""
+    ends = fit.pieces[0].control_points[0], fit.pieces[-1].control_points[-1]
+    for wanted, end in zip(options.get("end_tangents", (None, None)), ends, strict=True):
+        if wanted is not None:
+            places = places[np.hypot(*(places - end).T) > options["tolerance"]]
+    return places
 
 
 def _points_of(fit: ss.Fit) -> list[tuple[float, ...]]:
@@ -172,10 +182,13 @@ def _points_of(fit: ss.Fit) -> list[tuple[float, ...]]:
 
 def _invariance(fit: ss.Fit, drawn: Drawn, options: dict[str, Any]) -> set[str]:
     found, once = set(), _points_of(fit)
-    if _points_of(fitted(drawn.points[::-1], options)) != once:
-        found.add("direction")
+    orders = {"direction": np.arange(len(drawn.points))[::-1]}
     if drawn.closed:
-        turned = np.roll(drawn.points, len(drawn.points) // 3, axis=0)
-        if _points_of(fitted(turned, options)) != once:
-            found.add("start")
+        orders["start"] = np.roll(orders["direction"][::-1], len(drawn.points) // 3)
+    for name, order in orders.items():
+        asked = dict(options)
+        if "weights" in options:
+            asked["weights"] = options["weights"][order]
+        if _points_of(fitted(drawn.points[order], asked)) != once:
+            found.add(name)
     return found

@@ -10,7 +10,15 @@ from checks.shape import NEAR_CUSP
 from scipy.interpolate import BSpline, make_interp_spline
 from tests.checks.test_distance import circle, ring
 
-from checks import hooks, inflections, interval_ratio, smallest_radius, speed_ratio, turns
+from checks import (
+    data_turn,
+    hooks,
+    inflections,
+    interval_ratio,
+    smallest_radius,
+    speed_ratio,
+    turns,
+)
 
 
 def bezier(*points):
@@ -61,6 +69,22 @@ def test_a_corner_of_the_data_is_no_hook():
     # Without its corner the same curve has one.
     cut = line((0, 0), (9.0, 0.1), (10.0, 0.3), (9.9, 0.5))[:100]
     assert len(hooks(curve, cut, closed=False, tolerance=0.05)) == 1
+
+
+@pytest.mark.parametrize(
+    "way",
+    [
+        [(0, 0), (10, 0), (10, 5), (5, 0.1), (4, 5)],  # a corner beside a side passed before
+        [(5, -5), (5, 0), (5, 3), (5, 0), (10, 0)],  # the data go to and fro, then turn
+    ],
+)
+def test_each_pass_of_the_data_counts(way):
+    data, place = np.array(way, dtype=float), np.array([(4.9, -0.1)])
+    nearest, passes = (
+        data_turn(data, place, closed=False, reach=1.0, near=near) for near in (0.0, 0.3)
+    )
+    assert nearest == pytest.approx(0.0)
+    assert passes > np.radians(89)
 
 
 def test_a_hook_at_the_seam_of_a_closed_curve_is_one():
