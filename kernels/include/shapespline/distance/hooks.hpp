@@ -1,5 +1,5 @@
-// Hooks: places where a curve turns by more than 90 degrees within one tolerance of its length and
-// the data by less than 45 within six (PIE-26).
+// Hooks: places where a curve turns by more than 90 degrees within one tolerance of its length
+// and the data by less than 45 within six (PIE-26).
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 
 namespace shapespline {
 
-// The largest difference of the directions of a polyline's sides within `reach` of arc length about
-// the foot of a place. Side j leads from vertex j to j + 1; the foot is on a side of from .. to - 1,
-// sides of first .. last - 1 count.
+// The largest difference of the directions of a polyline's sides within `reach` of arc length
+// about the foot of a place. Side j leads from vertex j to j + 1; the foot is on a side of from ..
+// to - 1, sides of first .. last - 1 count.
 template <class Vertex>
 double turn_about(Vec2 place, Vertex &&vertex, long from, long to, long first, long last,
                   double reach) {
