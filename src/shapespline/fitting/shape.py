@@ -148,6 +148,21 @@ class DrawingRequest:
             raise InvalidInputError(
                 "smoothness=2 does not act with shared_boundaries: borders meet where they must"
             )
+        if shared:
+            if (
+                settings.character == "drawn"
+                or settings.simplify
+                or settings.regularities
+                not in (
+                    "auto",
+                    None,
+                )
+            ):
+                raise InvalidInputError(
+                    "character='drawn', regularities and simplify do not act with"
+                    " shared_boundaries, whose ends are where outlines meet: leave them out"
+                )
+            settings = replace(settings, character="fewest", regularities="auto")
         if settings.sigma is not None and len(shape) > 1 and np.ndim(settings.sigma):
             raise InvalidInputError(
                 f"sigma must be one length for the {len(shape)} contours of a shape, got shape"

@@ -59,8 +59,8 @@ def test_outlines_apart_share_nothing():
     arcs = shared_arcs(apart, 1e-6)
     assert arcs.points == []
     plain, shared = (
-        ss.fit_shape(ss.Shape(apart), tolerance=0.01, shared_boundaries=flag, regularities=None)
-        for flag in (False, True)  # what circles repeat is kept where they share nothing
+        ss.fit_shape(ss.Shape(apart), tolerance=0.01, shared_boundaries=flag, character="fewest")
+        for flag in (False, True)  # circles that share nothing are drawn
     )
     for a, b in zip(plain, shared, strict=True):
         assert_array_equal(a.control_points, b.control_points)
@@ -80,6 +80,13 @@ def test_open_lines_that_run_together():
     ]
     assert pieces[0] & pieces[1]
     assert all(fit.kept for fit in drawing)
+
+
+def test_what_is_drawn_does_not_act_on_shared_boundaries():
+    shape = ss.Shape([ss.Contour(on_circle(40), closed=True)])
+    for said in ({"character": "drawn"}, {"simplify": True}, {"regularities": ["tangent"]}):
+        with pytest.raises(ss.InvalidInputError, match="do not act with shared_boundaries"):
+            ss.fit_shape(shape, tolerance=0.01, shared_boundaries=True, **said)
 
 
 def test_shared_boundaries_need_a_tolerance():
