@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.validation import distinct
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -100,7 +101,7 @@ def segmented(seen: Observed) -> Segments:
                 first + np.arange(-FREED, FREED + 1),
             ]
         )
-        again, other = _solved(seen, begin, about, np.unique(near[(near > 0) & (near < n)]))
+        again, other = _solved(seen, begin, about, distinct(near[(near > 0) & (near < n)]))
         if other <= cost * (1 + 1e-12):
             best = again
     best = _merged(best, seen)
