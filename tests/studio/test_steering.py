@@ -79,6 +79,8 @@ def test_corners_held_and_moved_points_by_the_pointer(page):
 
 def test_regularities_have_a_switch_for_each_kind(page):
     example(page, "plate")
+    page.select_option("#word-character", "fewest")
+    until(page, DONE)
     assert not page.is_visible("#regular")
     page.select_option("#word-character", "drawn")
     until(page, DONE)
@@ -97,7 +99,7 @@ def test_regularities_have_a_switch_for_each_kind(page):
     until(page, DONE)
     assert page.evaluate(f"{names}.has('axis-parallel')")
     assert page.evaluate("studio.store.now.regularities") is None
-    for _ in range(3):
+    for _ in range(4):
         page.keyboard.press("z")
     until(page, DONE)
     assert page.input_value("#word-character") == page.evaluate("studio.panel.defaults.character")

@@ -34,7 +34,10 @@ def choices() -> dict[str, list[str]]:
     >>> choices()["effort"]
     ['fast', 'balanced', 'smallest']
     """
-    known = {item.name: getattr(words, str(item.type), None) for item in fields(Settings)}
+    known = {
+        item.name: getattr(words, str(item.type).removesuffix(" | None"), None)
+        for item in fields(Settings)
+    }
     return {
         name: list(get_args(one))
         for name, one in known.items()
@@ -43,14 +46,18 @@ def choices() -> dict[str, list[str]]:
 
 
 def defaults() -> dict[str, str]:
-    """What these options are where nothing is said.
+    """What these options are where nothing is said; nothing where that depends on the others.
 
     Examples
     --------
     >>> defaults()["effort"]
     'balanced'
     """
-    return {item.name: str(item.default) for item in fields(Settings) if item.name in choices()}
+    return {
+        item.name: "" if item.default is None else str(item.default)
+        for item in fields(Settings)
+        if item.name in choices()
+    }
 
 
 def fitted(asked: Asked, index: int, ticket: Ticket, *, draft: bool = False) -> Fit:
@@ -64,6 +71,7 @@ def fitted(asked: Asked, index: int, ticket: Ticket, *, draft: bool = False) -> 
             # What was drawn is looked for without an eye on the time (STU-06).
             character="fewest",
             regularities="auto",
+            simplify=False,
             time_limit=DRAFT_SECONDS,
         )
     elif settings.time_limit is None:

@@ -11,7 +11,9 @@ const [LEAST, MOST, STEPS] = [1e-6, 0.1, 1000];
 // Words that have a place of their own on the page.
 /** @type {Object<string, string>} */
 const FORMS = { pieces: "lines and curves", spline: "one spline", arcs: "lines and arcs" };
-const PLACED = new Set(["form", "effort", "ends", "knots"]);
+const PLACED = new Set(["form", "effort", "ends", "knots", "loss"]);
+// What is done where nothing is said.
+const BY_ITSELF = "drawn, where it acts";
 
 export class Panel {
   /** @param {import("./main.js").App} app */
@@ -74,7 +76,7 @@ export class Panel {
     element("more-words").replaceChildren(...Object.entries(choices).filter(([name]) => !PLACED.has(name)).map(([name, words]) => {
       const label = document.createElement("label");
       const list = document.createElement("select");
-      fill(list, words);
+      fill(list, [.../** @type {[string, string][]} */ (defaults[name] ? [] : [["", BY_ITSELF]]), ...words]);
       list.id = `word-${name}`;
       list.addEventListener("change", () => this.app.store.change({ regularities: null,
         words: { ...this.app.store.now.words, [name]: list.value } }));
@@ -173,7 +175,7 @@ export class Panel {
   /** Whether the shape is wanted as it was drawn. */
   isDrawn() {
     const { words, goal } = this.app.store.now;
-    return goal !== "points" && (words.character ?? this.defaults.character) === "drawn";
+    return goal !== "points" && (words.character ?? this.defaults.character) !== "fewest";
   }
 
   factor() {

@@ -30,7 +30,7 @@ export function asked(state) {
     if (state.corners !== "auto") settings.corners = state.corners === "none" ? null : state.corners;
     if (state.form !== "pieces") settings.form = state.form;
     if (state.effort !== "balanced") settings.effort = state.effort;
-    Object.assign(settings, state.words);
+    for (const [name, word] of Object.entries(state.words)) if (word) settings[name] = word;
     if (state.regularities) settings.regularities = state.regularities.length ? state.regularities : null;
   }
   if (state.goal === "tolerance") {
