@@ -91,7 +91,7 @@ function drawPoints(scene, c) {
   for (const i of seen) c.fillRect(points[i] - side / 2, points[i + 1] - side / 2, side, side);
 }
 
-/** Paths of so few pieces are small on the screen, which a browser without a graphics card draws far sooner. */
+/** Paths of so few pieces are small on the screen, which a browser without a graphics card draws far sooner (STU-08). */
 const IN_A_PATH = 48;
 
 /** Paths for each kind of piece; pieces that follow each other are one line. @param {Fit} fit @returns {Object<string, Path2D[]>} */
