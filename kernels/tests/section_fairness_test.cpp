@@ -33,6 +33,13 @@ TEST(an_arch_is_fair) {
     CHECK(is_fair(data, 0.5, cubic({{0, 0}, {3, 1}, {7, 1}, {10, 0}}, 101)));
 }
 
+TEST(an_arch_is_fair_whichever_way_it_leads) {
+    std::vector<Vec2> data = straight_data();
+    for (Vec2 &point : data) point = -1.0 * point;
+    // Both coordinates of its first direction are negative.
+    CHECK(is_fair(data, 0.5, cubic({{0, 0}, {-3, -1}, {-7, -1}, {-10, 0}}, 101)));
+}
+
 TEST(a_section_that_stands_still_has_a_near_cusp) {
     const auto data = straight_data();
     // The crossed handles of a cubic meet in a cusp where they are as long as this.

@@ -33,6 +33,11 @@ class Imports(ast.NodeVisitor):
             self.visit(node)
         self.when = before
 
+    def generic_visit(self, node):
+        # No import is inside an expression, which are most of a file.
+        if not isinstance(node, ast.expr):
+            super().generic_visit(node)
+
     def visit_FunctionDef(self, node):
         self._within("call", node.body)
 
@@ -40,8 +45,8 @@ class Imports(ast.NodeVisitor):
         self._within("call", node.body)
 
     def visit_If(self, node):
-        typed = ast.unparse(node.test) in ("TYPE_CHECKING", "typing.TYPE_CHECKING")
-        self._within("types" if typed else self.when, node.body)
+        name = node.test.id if isinstance(node.test, ast.Name) else None
+        self._within("types" if name == "TYPE_CHECKING" else self.when, node.body)
         self._within(self.when, node.orelse)
 
     def visit_Import(self, node):

@@ -107,7 +107,9 @@ class TurningSteps {
     // The turn between parts.
     void turn_to(long owner, Vec2 direction, Vec2 place) {
         if (!(norm_sq(direction) > 0.0)) return;
-        const double turn = turn_between(direction_, direction);
+        // Nothing is before the first part: the angle to no direction could be a half turn of -0.
+        const bool first = direction_.x == 0.0 && direction_.y == 0.0;
+        const double turn = first ? 0.0 : turn_between(direction_, direction);
         if (turn != 0.0) steps_.push_back({turn, 0.0, place, owner});
         direction_ = direction;
     }
