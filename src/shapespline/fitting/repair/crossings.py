@@ -77,7 +77,7 @@ def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
     """
     if not request.is_plain or request.style.form == "spline":
         return told(fit)
-    if not self_crossings(_line(fit)):
+    if not self_crossings(_line_as_read(fit)):
         return fit
     (found,) = uncrossed([fit], request, ask)
     return found
@@ -85,7 +85,7 @@ def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
 
 def told(fit: Fit) -> Fit:
     """The fit; its status says so if its curve crosses itself more often than its data do."""
-    count = self_crossings(_line(fit))
+    count = self_crossings(_line_as_read(fit))
     return _told(fit) if count and count > self_crossings(fit.contour.polyline) else fit
 
 
@@ -97,10 +97,10 @@ def uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], Fi
     read in their canonical order: what is repaired does not depend on which of them comes first and
     which way they run.
     """
-    if not _new_crossings([fit.contour for fit in fits], [_line(fit) for fit in fits]):
-        return list(fits)
     readings = [Reading.of(fit.contour) for fit in fits]
     read = [reading.fit(fit) for reading, fit in zip(readings, fits, strict=True)]
+    if not _new_crossings([fit.contour for fit in read], [_line(fit) for fit in read]):
+        return list(fits)
     found = _uncrossed(read, request, ask)
     return [
         reading.restored(*each) for reading, *each in zip(readings, fits, read, found, strict=True)
@@ -139,6 +139,11 @@ def _uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], F
         lines[owner] = _line(result[owner])
     still = {owner for pair in _new_crossings(contours, lines) for owner in pair}
     return [_told(fit) if owner in still else fit for owner, fit in enumerate(result)]
+
+
+def _line_as_read(fit: Fit) -> FloatArray:
+    """The line of a fit in canonical order: whether it crosses must not depend on its direction."""
+    return _line(Reading.of(fit.contour).fit(fit))
 
 
 def _line(fit: Fit) -> FloatArray:
