@@ -93,6 +93,8 @@ class DrawnPieces:
             place[k] = len(pieces)
             if isinstance(part, DrawnLine):
                 ends = np.stack([part.begin, part.end])
+                if (part.begin == part.end).all():  # an outline without an inside, all of one line
+                    return (), []
                 pieces.append(Piece("line", 1, np.array([0.0, 0.0, 1.0, 1.0]), ends))
             elif isinstance(part, DrawnArc):
                 pieces.append(Piece.of_arc(part.arc, within, begin=part.begin, end=part.end))

@@ -111,7 +111,7 @@ class Search:
         h, own = equation.value(model.x)
         local = self.covariance[np.ix_(index, index)]
         values, vectors = np.linalg.eigh(own @ local @ own.T)
-        told = values > IMPLIED * float(np.diag(local).max()) + TINY
+        told = values > IMPLIED * max(float(np.diag(local).max()), 0.0) + TINY
         across = vectors.T @ h
         if (np.abs(across[~told]) > MET * model.extent).any():
             return False
