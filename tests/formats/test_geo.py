@@ -50,7 +50,7 @@ def test_one_fit_and_one_contour_are_geometries_too(lake):
 def test_a_coordinate_reference_goes_all_the_way(lake, tmp_path):
     geopandas = pytest.importorskip("geopandas")
     frame = geopandas.GeoDataFrame({"name": ["lake", "way"]}, geometry=list(lake), crs=REFERENCE)
-    drawing = ss.fit_shape(ss.read(frame), tolerance=0.05)
+    drawing = ss.fit_shape(ss.read(frame), tolerance=0.05, character="fewest")
     assert drawing.reference == REFERENCE
     series = drawing.to_geopandas()
     assert series.crs.to_string() == REFERENCE

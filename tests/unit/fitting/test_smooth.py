@@ -89,7 +89,8 @@ def test_where_curvature_may_jump_the_status_says_so():
     fit = ss.fit_curve(walk, smoothness=2, **options)
     assert fit.kept
     assert fit.status == ss.Status.EXCEEDED
-    assert "curvature may jump in 6 places" in fit.status.value
+    assert "curvature may jump in" in fit.status.value
+    assert jumps(splines(fit.pieces), closed=False) > 1e-4
 
 
 @pytest.mark.parametrize(
