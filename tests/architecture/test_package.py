@@ -69,6 +69,7 @@ def test_scipy_is_imported_when_it_is_asked_for(name):
         assert first(module) not in ("scipy", "matplotlib") or when != "load", name
 
 
+@pytest.mark.slow
 @by_module
 def test_the_library_neither_prints_nor_exits(name):
     if first(name) in ("cli", "__main__"):

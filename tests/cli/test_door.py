@@ -263,6 +263,7 @@ def test_errors_of_points_are_a_length_or_a_column(shapespline, desk):
     assert "not within a tolerance" in err
 
 
+@pytest.mark.slow
 def test_a_picture_is_read_once_for_its_width(shapespline, desk, monkeypatch):
     read, seen = ss.read, []
     monkeypatch.setattr(ss, "read", lambda *a, **o: seen.append(a) or read(*a, **o), raising=False)
@@ -270,6 +271,7 @@ def test_a_picture_is_read_once_for_its_width(shapespline, desk, monkeypatch):
     assert len(seen) == 1
 
 
+@pytest.mark.slow
 def test_what_is_going_on_names_the_curve(shapespline, desk, monkeypatch):
     said = []
     monkeypatch.setattr(

@@ -194,6 +194,7 @@ def test_flat_and_empty_arcs_are_read(tmp_path):
     assert [piece.kind for piece in read.pieces] == ["line", "line"]
 
 
+@pytest.mark.slow
 def test_formats_without_arcs_say_so_once(drawing, tmp_path, recwarn):
     for ending in ("svg", "dxf", "nc", "png", "py"):
         ss.write(tmp_path / f"x.{ending}", drawing)

@@ -12,6 +12,9 @@ from shapespline.values.drawing import Drawing
 
 rhino3dm = pytest.importorskip("rhino3dm", reason="needs shapespline[rhino]")
 
+# Their libraries take seconds to load.
+pytestmark = pytest.mark.slow
+
 ENDINGS = ["step", "iges", "3dm"]
 
 
@@ -40,7 +43,6 @@ NAMES = ["ring", "wave", "nested", "degree 5", "square", "hand", "loop"]
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("ending", ENDINGS)
-@pytest.mark.slow
 def test_round_trip(drawings, tmp_path, ending, name):
     round_trip(drawings[name], tmp_path / f"drawing.{ending}")
 

@@ -23,6 +23,7 @@ def lake():
     return lake, shapely.LineString([(480, 4990), (490, 4995), (500, 4985)])
 
 
+@pytest.mark.slow
 def test_polygons_keep_their_holes_and_points(lake):
     shape = ss.read(lake[0])
     assert shape.parents in [(-1, 0), (1, -1)]

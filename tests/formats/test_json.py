@@ -145,6 +145,7 @@ def test_round_trip_of_a_history_that_lacks_a_gradient(round_trip):
     assert type(back.evaluations) is int
 
 
+@pytest.mark.slow
 @given(
     st.lists(
         st.tuples(*[st.floats(-1e60, 1e60)] * 2),

@@ -253,6 +253,7 @@ def test_the_paper_is_told_step_by_step(page):
     assert film["history"][-1, 1] < start["error"]
 
 
+@pytest.mark.slow
 def test_every_example_opens_and_is_fitted_at_once():
     for name, example in EXAMPLES.items():
         document = opened(example.file, example_bytes(name), {})

@@ -107,7 +107,7 @@ def test_regularities_have_a_switch_for_each_kind(page):
 
 def test_what_is_under_way_is_ended(page):
     example(page, "loop")
-    assert "1 crossing." in text(page)
+    until(page, "() => document.body.textContent.includes('1 crossing.')")
     before, state = text(page), page.evaluate("studio.store.now")
     content = b"".join(f"{k},{(k * k) % 977}\n".encode() for k in range(400_000))
     page.set_input_files("#file", {"name": "l.csv", "mimeType": "text/plain", "buffer": content})

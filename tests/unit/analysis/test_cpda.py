@@ -255,6 +255,7 @@ def test_open_prominence_is_scipys(values, prominence):
     assert_array_equal(maxima(values, prominence=prominence), expected)
 
 
+@pytest.mark.slow
 @given(sequences, st.floats(0, 6))
 def test_closed_prominence_is_scipys_on_three_rounds(values, prominence):
     values = np.array(values, dtype=float)

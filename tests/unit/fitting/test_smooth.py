@@ -53,6 +53,7 @@ def jumps(parts, closed):
     return max(found) / largest
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("degree", [3, 5])
 def test_curvature_has_no_jump_but_in_corners(shape, degree):

@@ -115,6 +115,7 @@ def test_far_from_the_curve():
     assert (distance <= dense_distances(curve, queries) * (1 + 8 * EPS)).all()
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10**6), st.integers(1, 5), st.booleans())
 def test_each_query_alone_gives_the_same(seed, degree, periodic):
     rng = np.random.default_rng(seed)

@@ -15,6 +15,7 @@ def picture():
     return np.clip(127 - ink, 0, 255).astype(np.uint8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mode", ["L", "RGB", "RGBA", "LA", "1", "P", "I;16"])
 def test_arrays_images_and_files_agree(tmp_path, mode):
     grey = Image.fromarray(picture())

@@ -101,6 +101,7 @@ def pen_strokes(height=120, width=200, fine=8):
     return np.asarray(image.reduce(fine))
 
 
+@pytest.mark.slow
 def test_junctions_corners_and_ends_lie_where_the_pen_was():
     shape = ss.trace(pen_strokes(), centerline=True)
     assert len(shape) == 5

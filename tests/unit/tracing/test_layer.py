@@ -30,6 +30,7 @@ def pictures():
     yield letters / 255.0
 
 
+@pytest.mark.slow
 def test_strips_change_nothing(monkeypatch):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ss.PictureWarning)

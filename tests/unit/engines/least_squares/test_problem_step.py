@@ -183,6 +183,7 @@ def test_parameters_on_knots_and_beyond_the_ends_and_periods():
     assert_step(case, 0.1)
 
 
+@pytest.mark.slow
 @given(
     st.integers(1, 6), st.booleans(), st.integers(0, 10**6), st.floats(1e-4, 1e4), st.integers(0, 9)
 )

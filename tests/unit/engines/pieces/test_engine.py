@@ -107,6 +107,7 @@ def test_corners_that_are_named_are_nodes_and_make_none():
         assert np.abs(turns(smooth.pieces, closed=True)).max() < SMOOTH
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("effort", ["fast", "balanced", "smallest"])
 def test_every_effort_keeps_the_promise(effort):
     contour = flower()
