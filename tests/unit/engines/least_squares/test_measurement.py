@@ -294,6 +294,7 @@ def _start(contour, count):
 # --- speed, files, errors ----------------------------------------------------------------------
 
 
+@pytest.mark.slow  # a time means nothing under sanitizers
 def test_bands_of_ten_thousand_points_take_less_than_50_ms():
     contour = Contour(flower(10_000).points, True)
     start = _start(contour, 100)
