@@ -35,7 +35,8 @@ def test_a_million_points_are_fitted_in_a_part_of_the_time_of_splprep():
     ("name", "most"), [("hand620_closed", 16), ("leaf840_closed", 11), ("plane1100_closed", 6)]
 )
 def test_some_splprep_calls(outline, name, most):
-    # Measured: 5.4, 3.4 and 1.5 calls that keep the same tolerance.
+    # Measured: 4.1, 5.4 and 1.3 calls that keep the same tolerance; to find that lines and arcs do
+    # not make up these outlines takes 3 to 4 more (DRA-11).
     from benchmarks.peers import splprep_points
 
     contour = outline(name)
@@ -44,7 +45,9 @@ def test_some_splprep_calls(outline, name, most):
         peer = min(
             splprep_points(contour.points, closed=True, tolerance=0.1).seconds for _ in range(3)
         )
-    assert median_of(lambda: ss.fit_curve(contour, tolerance=0.1), 3) < most * peer
+    fewest = median_of(lambda: ss.fit_curve(contour, tolerance=0.1, character="fewest"), 3)
+    assert fewest < most * peer
+    assert median_of(lambda: ss.fit_curve(contour, tolerance=0.1), 3) < (most + 6) * peer
 
 
 def test_points_that_scatter_do_not_take_minutes():

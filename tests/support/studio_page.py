@@ -40,4 +40,6 @@ def dropped(page, name, content):
 
 
 def text(page):
+    """The sentence; it is written with the frame after what it says has changed."""
+    page.evaluate("() => new Promise(requestAnimationFrame)")
     return page.inner_text("#sentence")
