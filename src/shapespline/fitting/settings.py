@@ -203,10 +203,10 @@ class Settings:
 
     def _check_drawn(self) -> None:
         """Raise if the shape cannot be given as it was drawn beside the other options."""
-        if self.simplify and (self.character == "fewest" or self.tolerance is None):
-            raise InvalidInputError(
-                "simplify acts with character='drawn' within a tolerance: give both"
-            )
+        if self.simplify and self.tolerance is None:
+            raise InvalidInputError("simplify acts within a tolerance: give one")
+        if self.simplify and self.character == "fewest":
+            raise InvalidInputError("simplify acts with character='drawn' only: leave one out")
         if self.character == "fewest" and self.regularities != "auto":
             raise InvalidInputError("regularities act with character='drawn' only: say it")
         asked = self.simplify or self.regularities != "auto"

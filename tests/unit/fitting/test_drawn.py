@@ -202,3 +202,5 @@ def test_features_below_the_tolerance_are_left_out_on_request_and_never_bent():
     assert [piece.kind for piece in kept.pieces] == [piece.kind for piece in plain.pieces]
     with pytest.raises(ss.InvalidInputError, match="simplify acts with character='drawn'"):
         ss.fit_curve(outline, closed=True, tolerance=0.5, character="fewest", simplify=True)
+    with pytest.raises(ss.InvalidInputError, match="simplify acts within a tolerance"):
+        ss.fit_curve(outline, closed=True, simplify=True)
