@@ -114,6 +114,12 @@ def until(page: Page, expression: str, seconds: float = 20.0) -> None:
         if time.monotonic() > end:
             raise TimeoutError(f"{expression}; the page says: {page.inner_text('footer')}")
         page.wait_for_timeout(15)
+    painted(page)
+
+
+def painted(page: Page) -> None:
+    """Wait for the frame that shows what the page knows: its sentences are written once a frame."""
+    page.evaluate("() => new Promise(requestAnimationFrame)")
 
 
 def opened(browser: Browser, address: str, **options: Any) -> Page:

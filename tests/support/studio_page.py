@@ -1,6 +1,6 @@
 """What the tests of the studio's page do with it."""
 
-from benchmarks.studio import DONE, until
+from benchmarks.studio import DONE, painted, until
 
 LEAF = "scan"
 SQUARE = b"0,0\n" + b"".join(f"{10 * (k // 10)},{k}\n".encode() for k in range(1, 11))
@@ -40,6 +40,5 @@ def dropped(page, name, content):
 
 
 def text(page):
-    """The sentence; it is written with the frame after what it says has changed."""
-    page.evaluate("() => new Promise(requestAnimationFrame)")
+    painted(page)
     return page.inner_text("#sentence")
