@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from benchmarks.studio import DONE, dragged, until
-from tests.support.studio_page import LEAF, example, own, place_of_node, text
+from tests.support.studio_page import LEAF, example, own, place_of_node, text, unheard
 
 pytestmark = pytest.mark.slow
+PROGRESS = "document.querySelector('#progress').textContent"
 # The browser's own measure of what moved without the user having moved it, none at first.
 SHIFTS = """new PerformanceObserver((list) => {
   for (const entry of list.getEntries()) window.shifts += entry.value;
@@ -110,23 +111,27 @@ def test_what_is_under_way_is_ended(page):
     until(page, "() => document.body.textContent.includes('1 crossing.')")
     before, state = text(page), page.evaluate("studio.store.now")
     content = b"".join(f"{k},{(k * k) % 977}\n".encode() for k in range(400_000))
-    page.set_input_files("#file", {"name": "l.csv", "mimeType": "text/plain", "buffer": content})
-    until(page, "() => document.querySelector('#progress').textContent.includes('Reading l.csv')")
-    page.click("#cancel")
-    until(page, "() => !document.querySelector('#cancel').checkVisibility()")
+    file = {"name": "l.csv", "mimeType": "text/plain", "buffer": content}
+    with unheard(page, "shape"):
+        page.set_input_files("#file", file)
+        until(page, f"() => {PROGRESS}.includes('Reading l.csv')")
+        page.click("#cancel")
+        until(page, "() => !document.querySelector('#cancel').checkVisibility()")
     assert page.evaluate("[studio.files.file.name, studio.files.reading]") == ["loop.csv", None]
     assert page.input_value("#examples") == "loop"
     assert (text(page), page.evaluate("studio.store.now")) == (before, state)
     # A newer file ends the one that is being read.
-    page.set_input_files("#file", {"name": "l.csv", "mimeType": "text/plain", "buffer": content})
-    until(page, "() => studio.files.reading !== null")
+    with unheard(page, "shape"):
+        page.set_input_files("#file", file)
+        until(page, "() => studio.files.reading !== null")
     example(page, LEAF)
     page.select_option("#effort", "smallest")
-    page.fill("#tolerance-number", "0.015")
-    page.press("#tolerance-number", "Enter")
-    until(page, "() => document.querySelector('#progress').textContent.startsWith('Fitting for')")
-    page.keyboard.press("Escape")
-    until(page, "() => document.querySelector('#progress').textContent.startsWith('Ended')")
+    with unheard(page, "fit", "done"):
+        page.fill("#tolerance-number", "0.015")
+        page.press("#tolerance-number", "Enter")
+        until(page, f"() => {PROGRESS}.startsWith('Fitting for')")
+        page.keyboard.press("Escape")
+        until(page, f"() => {PROGRESS}.startsWith('Ended')")
     assert page.evaluate("studio.scene.shape.name") == "scan.csv"
 
 

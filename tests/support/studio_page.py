@@ -1,5 +1,7 @@
 """What the tests of the studio's page do with it."""
 
+from contextlib import contextmanager
+
 from benchmarks.studio import DONE, painted, until
 
 LEAF = "scan"
@@ -10,6 +12,21 @@ def example(page, name):
     page.select_option("#examples", name)
     until(page, f"() => studio.scene.shape.name.startsWith({name!r})")
     until(page, DONE)
+
+
+@contextmanager
+def unheard(page, *kinds):
+    """The page hears nothing of some kinds, so that what is under way stays so on any machine."""
+    page.evaluate(
+        """(kinds) => {
+          const { wire } = studio;
+          wire.hearsAll = wire.hear;
+          wire.hear = (message) => kinds.includes(message.type) || wire.hearsAll(message);
+        }""",
+        kinds,
+    )
+    yield
+    page.evaluate("() => { studio.wire.hear = studio.wire.hearsAll; }")
 
 
 def own(page):
