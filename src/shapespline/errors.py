@@ -57,6 +57,10 @@ class ArcsAsCurvesWarning(UserWarning):
     """A format that knows no arcs was written: curves stand for them."""
 
 
+class MissingReferenceWarning(UserWarning):
+    """A format for maps was written without a coordinate reference."""
+
+
 def require(module: str, extra: str, said: str) -> None:
     """Raise unless a module of an extra can be imported.
 

@@ -154,3 +154,22 @@ def test_too_few_points_name_the_file(tmp_path):
     path.write_text("1,2\n")
     with pytest.raises(DegenerateContourError, match=r"dot\.csv: points must hold at least"):
         read(path)
+
+
+@pytest.mark.parametrize(
+    ("header", "named", "expected"),
+    [
+        ("No,X [mm],Y [mm]", "x,y", [[1, 2], [3, 5]]),
+        ("x,X,y (m)", "x,Y", [[0, 2], [1, 5]]),
+        ("x [mm],x [in],y", "x,y", None),
+        ("x [mm],x [in],y", "x [in],y", [[1, 2], [3, 5]]),
+    ],
+)
+def test_names_of_columns_may_leave_out_units_and_capitals(tmp_path, header, named, expected):
+    path = tmp_path / "table.csv"
+    path.write_text(f"{header}\n0,1,2\n1,3,5\n4,4,4\n")
+    if expected is None:  # either could be meant
+        with pytest.raises(FormatError, match="no column 'x'; the table has 3"):
+            read(path, columns=named)
+    else:
+        assert read(path, columns=named).longest.points.tolist()[:2] == expected

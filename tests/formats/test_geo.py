@@ -67,8 +67,17 @@ def test_a_coordinate_reference_goes_all_the_way(lake, tmp_path):
 
 
 def test_no_reference_is_written_where_none_is_known(lake, tmp_path):
-    ss.write(tmp_path / "way.geojson", ss.read(lake[1]))
-    assert "crs" not in json.loads((tmp_path / "way.geojson").read_text())
+    path, way = tmp_path / "way.geojson", ss.read(lake[1])
+    with pytest.warns(ss.MissingReferenceWarning, match="longitude and latitude") as said:
+        ss.write(path, way)
+    assert said[0].filename == __file__
+    assert "crs" not in json.loads(path.read_text())
+
+
+def test_points_that_may_be_degrees_need_no_reference(lake, tmp_path):
+    points = ss.read(lake[1]).contours[0].points
+    ss.write(tmp_path / "way.geojson", ss.Contour(points * 80.0 / np.abs(points).max()))
+    assert len(ss.read(tmp_path / "way.geojson")) == 1
 
 
 @pytest.mark.slow

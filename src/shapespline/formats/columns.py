@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 from shapespline.errors import FormatError, InvalidInputError
 
 COMMENT = "#"
 # What may part columns, in order of preference; None: blanks and tabs, a run of them counts once.
 SEPARATORS = (";", "\t", ",", None)
+# What headers say behind a name: "x [mm]", "y (m)".
+UNIT = re.compile(r"\s*[\[(][^\])]*[\])]$")
 
 
 def picked(lines: list[str], columns: str) -> list[str]:
@@ -16,7 +20,8 @@ def picked(lines: list[str], columns: str) -> list[str]:
     ----------
     lines : list of str
     columns : str
-        Two names of the first line, or two numbers from 1, parted by a comma.
+        Two names of the first line, or two numbers from 1, parted by a comma. A unit in brackets
+        behind a name and capitals may be left out where one column alone can be meant.
 
     Raises
     ------
@@ -31,6 +36,8 @@ def picked(lines: list[str], columns: str) -> list[str]:
     ['#', '1.5;2', '3;4']
     >>> picked(["7 1.5 2"], "3,2")
     ['2;1.5']
+    >>> picked(["No,X [mm],Y [mm]", "1,1.5,2"], "x,y")
+    ['#', '1.5;2']
     """
     wanted = [name.strip() for name in columns.split(",")]
     if len(wanted) != 2 or not all(wanted):
@@ -63,6 +70,9 @@ def _index(name: str, header: list[str], numbered: bool) -> int:
     """Place of a column in a line."""
     if numbered and 1 <= int(name) <= len(header):
         return int(name) - 1
-    if not numbered and name in header:
-        return header.index(name)
+    if not numbered:
+        short = [UNIT.sub("", field).casefold() for field in header]
+        for names, wanted in ((header, name), (short, name.casefold())):
+            if names.count(wanted) == 1:
+                return names.index(wanted)
     raise FormatError(f"no column {name!r}; the table has {len(header)}: {', '.join(header)}")

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.errors import FormatError
+from shapespline.errors import FormatError, MissingReferenceWarning, caller_level
 from shapespline.formats.geo import geometries, plain_lists
 from shapespline.geometry import parents_of
 from shapespline.values import Contour, Shape
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
     from shapespline.typing import FloatArray
     from shapespline.values import Drawing
+
+# Longitude and latitude lie between these and their negatives, degrees (RFC 7946, section 4).
+LAST_DEGREES = (180.0, 90.0)
 
 
 def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:
@@ -41,16 +45,36 @@ def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:
     ------
     InvalidInputError
         If ``chord`` is not positive, or absurdly small.
+
+    Warns
+    -----
+    MissingReferenceWarning
+        If the drawing names no coordinate reference and its points cannot be degrees, for which
+        programs will take them.
     """
     features = [
         {"type": "Feature", "properties": {}, "geometry": geometry}
         for geometry in geometries(drawing, chord)
     ]
     document: dict[str, Any] = {"type": "FeatureCollection"}
-    if drawing.reference is not None:
+    if drawing.reference is None:
+        _say_of_reference(drawing)
+    else:
         document["crs"] = {"type": "name", "properties": {"name": drawing.reference}}
     text = json.dumps({**document, "features": features})
     return f"{text}\n".encode()
+
+
+def _say_of_reference(drawing: Drawing) -> None:
+    """Warn where points without a coordinate reference cannot be longitude and latitude."""
+    if len(drawing) and np.any(np.abs(drawing.bounds).reshape(-1, 2) > LAST_DEGREES):
+        warnings.warn(
+            "the drawing names no coordinate reference, so programs take its points for longitude"
+            " and latitude: read it with one (ss.Shape(contours, reference='EPSG:25832')), or set"
+            " that of the layer there",
+            MissingReferenceWarning,
+            stacklevel=caller_level(),
+        )
 
 
 def read(path: Path, *, closed: bool | None = None) -> Shape:
