@@ -20,7 +20,9 @@ from pathlib import Path
 from resource import RUSAGE_CHILDREN, getrusage
 
 ROOT = Path(__file__).parent.parent
-OUTLINE = ROOT / "examples" / "data" / "outlines" / "hand620_closed.csv"
+DATA = ROOT / "examples" / "data"
+OUTLINE = DATA / "outlines" / "hand620_closed.csv"
+PICTURE = DATA / "images" / "mdi_leaf-maple_256.png"
 FRESH = ROOT / "build" / "wheel" / "environment" / "bin" / "python"
 RUNS = 7
 
@@ -66,13 +68,18 @@ def waited(arguments: list[str], folder: str, runs: int = RUNS) -> Waited:
 
 def ways(folder: str) -> dict[str, list[str]]:
     """What is measured, by its name."""
-    fit = ["fit", str(OUTLINE), "-t", "0.5", "-o", str(Path(folder, "hand.svg"))]
+
+    def fit(source: Path) -> list[str]:
+        target = Path(folder, f"{source.stem}.svg")
+        return ["-m", "shapespline", "fit", str(source), "-t", "0.5", "--force", "-o", str(target)]
+
     return {
         "python -c pass": ["-c", "pass"],
         "import numpy": ["-c", "import numpy"],
         "import shapespline": ["-c", "import shapespline"],
         "shapespline --help": ["-m", "shapespline", "--help"],
-        "one small fit": ["-m", "shapespline", *fit],
+        "one small fit": fit(OUTLINE),
+        "one small picture": fit(PICTURE),
     }
 
 

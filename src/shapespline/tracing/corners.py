@@ -315,30 +315,38 @@ def _distances(
     points: FloatArray, own: IntArray, lines: Sequence[FloatArray], closed: Sequence[bool]
 ) -> FloatArray:
     """Of points to polylines whose edges are short, each to its own; infinite if far."""
-    from scipy.spatial import cKDTree
-
-    used = np.unique(own).tolist()
+    used = np.unique(own)
     if len(used) == 0:
         return np.empty(0)
-    begins = [lines[k] if closed[k] else lines[k][:-1] for k in used]
+    parts = [lines[k] if closed[k] else lines[k][:-1] for k in used]
+    begins = np.concatenate(parts)
     steps = np.concatenate(
         [np.diff(lines[k], axis=0, append=lines[k][: int(closed[k])]) for k in used]
     )
-    # Each line in a plane of its own, far from the others.
-    planes = 10 * SIDE * np.array(used)
-    tree = cKDTree(
-        np.column_stack([np.concatenate(begins), np.repeat(planes, [len(x) for x in begins])])
-    )
-    near = tree.query_ball_point(np.column_stack([points, 10 * SIDE * own]), SIDE)
-    counts = np.array([len(one) for one in near])
-    edges = np.concatenate([np.asarray(one, dtype=np.int64) for one in near])
-    off = tree.data[edges, :2] - np.repeat(points, counts, axis=0)
-    best = np.full(len(edges), np.inf)
-    for share in np.arange(0.0, 1.0, 0.125):
-        best = np.minimum(best, np.hypot(*(off + share * steps[edges]).T))
-    found = np.full(len(points), np.inf)
-    some = counts > 0
-    found[some] = np.minimum.reduceat(best, (np.cumsum(counts) - counts)[some])
+    # Where edges begin, sorted by cells of a grid, a grid for each line, with free cells around.
+    least = begins.min(axis=0)
+    free = np.ptp(begins, axis=0) // SIDE + 3
+
+    def cells(places: FloatArray, line: IntArray) -> IntArray:
+        x, y = np.clip((places - least) // SIDE + 1, 0, free - 1).T
+        return ((line * free[1] + y) * free[0] + x).astype(np.int64)
+
+    keys = cells(begins, np.repeat(used, [len(part) for part in parts]))
+    order = np.argsort(keys)
+    keys = keys[order]
+    found, middle = np.full(len(points), np.inf), cells(points, own)
+    for row in middle + free[0].astype(np.int64) * np.array([[-1], [0], [1]]):
+        first, last = np.searchsorted(keys, row - 1), np.searchsorted(keys, row + 1, "right")
+        counts = last - first
+        whose = np.repeat(np.arange(len(points)), counts)
+        ahead = np.repeat(first - (np.cumsum(counts) - counts), counts)
+        edges = order[ahead + np.arange(len(ahead))]
+        off = begins[edges] - points[whose]
+        best = np.full(len(edges), np.inf)
+        for share in np.arange(0.0, 1.0, 0.125):
+            best = np.minimum(best, np.hypot(*(off + share * steps[edges]).T))
+        best[np.hypot(*off.T) > SIDE] = np.inf
+        np.minimum.at(found, whose, best)
     return found
 
 
