@@ -16,9 +16,8 @@ from shapespline.tracing.corners import (
     AROUND,
     UNCERTAIN,
     around,
-    meetings,
+    put_back,
     rounded_off,
-    with_corners,
 )
 from shapespline.tracing.coverage import border_coverage
 from shapespline.tracing.lines import MOST
@@ -76,14 +75,13 @@ def drawn_borders(
         lines.append(found.places.drawn[path])
         levels.append(found.places.level[path])
         drawn.append(certain)
-    corners = meetings(lines, levels, drawn, closed)
-    if len(corners.points) == 0:
-        return lines
-    tried = with_corners(lines, corners, closed)
-    missing, step = _missing(corners, tried, found, pixels, palette)
-    uncertain = UNCERTAIN + 3 * (2 * AROUND + 1) * noise * 255.0 / step
-    good = np.abs(missing) <= uncertain + rounded_off(corners.turns)
-    return with_corners(lines, corners.chosen(good), closed)
+
+    def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
+        missing, step = _missing(corners, tried, found, pixels, palette)
+        uncertain = UNCERTAIN + 3 * (2 * AROUND + 1) * noise * 255.0 / step
+        return np.abs(missing) <= uncertain + rounded_off(corners.turns)
+
+    return put_back(lines, levels, drawn, closed, fit)
 
 
 def _missing(

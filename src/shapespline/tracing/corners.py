@@ -1,7 +1,7 @@
 """Corners as they were drawn: put back where the sides that run into them meet.
 
 The square of a pixel averages a corner with the ground around it, so that every level line cuts it:
-a right angle by 0.43 pixels in the mean and 0.64 at most, an acute one by more. Beyond that the
+a right angle by 0.42 pixels in the mean and 0.71 at most, an acute one by more. Beyond that the
 sides show undisturbed; lines or parabolas through them meet in the corner. It is taken if it lies
 no farther from the level line than the square can have cut off, and if the ink of the pixels around
 it adds up to that of the drawing with it: a rounding has less.
@@ -16,23 +16,23 @@ import numpy as np
 from shapespline.tracing.coverage import border_coverage
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from shapespline.tracing.field import Field
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # Angle between the sides, degrees, and the farthest that the level line of a drawing can be from
 # the corner, pixels: measured over all directions and places, area coverage.
-ANGLES = (0.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0, 180.0)
-CUT_OFF = (4.0, 2.7, 1.9, 1.3, 1.0, 0.64, 0.40, 0.21, 0.05)
+ANGLES = (0.0, 15.0, 20.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 135.0, 150.0, 165.0, 180.0)
+CUT_OFF = (4.0, 3.9, 2.95, 2.03, 1.49, 1.22, 0.93, 0.715, 0.55, 0.42, 0.315, 0.223, 0.154, 0.05)
 # A turn of more, between chords that begin and end so many pixels before and behind.
 LEAST_TURN = np.radians(22.0)
 CHORD = (1.0, 3.4)
 # Candidates nearer than this are one; sides are looked at as far as this, and over no less.
 SAME_CORNER, SIDE, SHORTEST_SIDE = 1.6, 6.0, 0.9
-# A side is disturbed this far from the corner: half a pixel for its column, and what the other
-# side's square reaches over.
-DISTURBED, SQUARE = 0.75, 0.5
+# A side is disturbed this far from the corner: half a pixel for its column, or more where columns
+# next to it see the corner, and what the other side's square reaches over.
+DISTURBED, SQUARE = (0.75, 1.25, 1.75), 0.5
 # Root mean square distance in pixels of a side to a line and a parabola. The line is taken where it
 # is not so many times worse.
 SMOOTH, TIE, TIE_FACTOR = 0.05, 0.004, 1.5
@@ -49,6 +49,8 @@ _SOLVED = {
 # Pixels on either side of a corner whose ink is added up. No more of it may be missing, or be too
 # much, than a rounding of this radius takes and this many square pixels.
 AROUND, ROUNDING, UNCERTAIN = 3, 0.5, 0.03
+# Points of each side between the corner and where the side shows undisturbed.
+BETWEEN = 2
 # Decimals of a pixel that a corner's place has.
 DIGITS = 9
 # Shorter outlines have no sides that show undisturbed.
@@ -56,17 +58,27 @@ SHORTEST_OUTLINE = 16.0
 
 
 class Corners(NamedTuple):
-    """Corners: the outline of each, place, turn, and the arc lengths where its sides take over."""
+    """Corners: the outline of each, place, turn, and the arc lengths where its sides take over.
+
+    ``runs`` are the points from one side to the other, the corner in their middle.
+    """
 
     own: IntArray
     points: FloatArray
     turns: FloatArray
     begins: FloatArray
     ends: FloatArray
+    runs: FloatArray
 
     def chosen(self, which: BoolArray) -> Corners:
         """Some of them."""
         return Corners(self.own[which], *(column[which] for column in self[1:]))
+
+    def joined(self, other: Corners) -> Corners:
+        """Both, in order along their outlines."""
+        parts = [np.concatenate(pair) for pair in zip(self, other, strict=True)]
+        order = np.lexsort((parts[3] + parts[4], parts[0]))
+        return Corners(*(part[order] for part in parts))
 
     def by_outline(self, count: int) -> list[Corners]:
         """Those of each outline."""
@@ -76,7 +88,22 @@ class Corners(NamedTuple):
         return [Corners(*part) for part in zip(own, *columns, strict=True)]
 
 
-_NONE = Corners(np.empty(0, dtype=np.int64), np.empty((0, 2)), *np.empty((3, 0)))
+_NONE = Corners(
+    np.empty(0, dtype=np.int64),
+    np.empty((0, 2)),
+    np.empty(0),
+    np.empty(0),
+    np.empty(0),
+    np.empty((0, 2 * BETWEEN + 1, 2)),
+)
+
+
+class _Turns(NamedTuple):
+    """Where ways turn: the way, the arc length, and by how much, radians."""
+
+    own: IntArray
+    at: FloatArray
+    turn: FloatArray
 
 
 class _Ways:
@@ -132,14 +159,66 @@ def sharpened(
         Which of them the grey of the picture told; the others keep the corners that they have.
     field : Field
     """
-    found = meetings(outlines, level_lines, drawn, [True] * len(outlines))
-    if len(found.points) == 0:
-        return list(outlines)
-    tried = with_corners(outlines, found, [True] * len(outlines))
     noise = field.noise * (2 * AROUND + 1)
-    missing = _missing(found.points, tried, field)
-    good = np.abs(missing) <= UNCERTAIN + rounded_off(found.turns) + 3 * noise
-    return with_corners(outlines, found.chosen(good), [True] * len(outlines))
+
+    def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
+        missing = _missing(corners.points, tried, field)
+        return np.abs(missing) <= UNCERTAIN + rounded_off(corners.turns) + 3 * noise
+
+    return put_back(outlines, level_lines, drawn, [True] * len(outlines), fit)
+
+
+def put_back(
+    lines: Sequence[FloatArray],
+    level_lines: Sequence[FloatArray],
+    drawn: Sequence[bool],
+    closed: Sequence[bool],
+    fit: Callable[[Corners, Sequence[FloatArray]], BoolArray],
+) -> list[FloatArray]:
+    """Outlines and open lines with the corners that fit the picture.
+
+    How far sides are disturbed is not known: those that do not fit are looked for again, from
+    farther sides (TRC-07).
+
+    Parameters
+    ----------
+    lines, level_lines, drawn
+        As for `sharpened`.
+    closed : sequence of bool
+    fit : callable
+        Which corners fit the picture, of some and the lines with them.
+    """
+    long = [length >= SHORTEST_OUTLINE for length in map(_length, lines)]
+    used = np.flatnonzero(np.array(drawn, dtype=bool) & np.array(long))
+    if len(used) == 0:
+        return list(lines)
+    chosen = used.tolist()
+    ways = _Ways([lines[k] for k in chosen], [closed[k] for k in chosen])
+    turns = _turns(ways)
+    corners = _NONE
+    for disturbed in DISTURBED:
+        found = _meetings(ways, turns, disturbed)
+        found = found._replace(own=used[found.own])
+        far = _distances(found.points, found.own, level_lines, closed)
+        cut_off = np.interp(np.degrees(np.pi - found.turns), ANGLES, CUT_OFF)
+        found = corners.joined(found.chosen((far <= cut_off) & _away(found, corners)))
+        if len(found.points) > len(corners.points):
+            corners = found.chosen(fit(found, _with_corners(lines, found, closed)))
+        if len(corners.points) == len(turns.own):
+            break
+    return _with_corners(lines, corners, closed)
+
+
+def _away(found: Corners, corners: Corners) -> BoolArray:
+    """Which of the corners found are none of some others, looked for again."""
+    if len(corners.own) == 0:
+        return np.ones(len(found.own), dtype=bool)
+    # Outlines one after the other, farther apart than any two places of one.
+    span = 2.0 * float(max(found.ends.max(initial=0.0), corners.ends.max())) + SIDE
+    held, places = (c.own * span + 0.5 * (c.begins + c.ends) for c in (corners, found))
+    after = np.searchsorted(held, places)
+    beside = held[np.stack([np.maximum(after - 1, 0), np.minimum(after, len(held) - 1)])]
+    return np.asarray(np.abs(beside - places).min(axis=0) > SAME_CORNER)
 
 
 def rounded_off(turns: FloatArray) -> FloatArray:
@@ -147,45 +226,34 @@ def rounded_off(turns: FloatArray) -> FloatArray:
     return np.asarray(ROUNDING**2 * (np.tan(0.5 * turns) - 0.5 * turns))
 
 
-def meetings(
-    outlines: Sequence[FloatArray],
-    level_lines: Sequence[FloatArray],
-    drawn: Sequence[bool],
-    closed: Sequence[bool],
-) -> Corners:
-    """Where the sides of outlines and open lines meet, as far as their level lines allow."""
-    long = [length >= SHORTEST_OUTLINE for length in map(_length, outlines)]
-    used = np.flatnonzero(np.array(drawn, dtype=bool) & np.array(long))
-    chosen = used.tolist()
-    if len(used) == 0:
-        return _NONE
-    ways = _Ways([outlines[k] for k in chosen], [closed[k] for k in chosen])
-    own, at, turn = _candidates(ways)
+def _meetings(ways: _Ways, turns: _Turns, disturbed: float) -> Corners:
+    """Where the sides of ways meet, if they are disturbed as far as that."""
+    own, at, turn = turns
     if len(own) == 0:
         return _NONE
-    turn = np.abs(turn)
-    wrong = np.zeros(len(own), dtype=bool)
     for _ in range(ROUNDS):
-        near = DISTURBED + SQUARE * np.tan(0.5 * turn)
+        near = disturbed + SQUARE * np.tan(0.5 * turn)
         behind, ahead = _room(ways, own, at)
         sides, wide = [], np.full(len(at), np.inf)
         for room, sign in ((behind, -1.0), (ahead, 1.0)):
             far = np.minimum(SIDE, room - near)
             sides.append(_side(ways, own, at, near, far, sign))
             wide = np.minimum(wide, far - near)
-        meets, turn, off, apart = _meeting(*(side[0] for side in sides))
+        runs, turn, off, apart = _meeting(sides[0][0], sides[1][0], near)
         at = at + np.clip(off, -SAME_CORNER, SAME_CORNER)
-        # An outline whose corners change places has none.
-        wrong |= np.isin(own, own[1:][(np.diff(at) < 0) & (np.diff(own) == 0)])
-    cut_off = np.interp(np.degrees(np.pi - turn), ANGLES, CUT_OFF)
-    good = sides[0][1] & sides[1][1] & (wide >= SHORTEST_SIDE) & (turn > LEAST_TURN) & ~wrong
+        fit = sides[0][1] & sides[1][1]
+        # Corners that change places are none.
+        columns = (own, at, near, wide, runs, turn, apart, fit)
+        while (swapped := (np.diff(at) < 0) & (np.diff(own) == 0)).any():
+            kept = ~(np.append(swapped, False) | np.append(False, swapped))
+            columns = tuple(column[kept] for column in columns)
+            own, at = columns[:2]
+        own, at, near, wide, runs, turn, apart, fit = columns
     # The sides of a stroke's round end run side by side and meet nowhere.
-    good &= apart <= MEET
-    own = used[own]
-    good[good] = _distances(meets[good], own[good], level_lines, closed) <= cut_off[good]
+    good = fit & (wide >= SHORTEST_SIDE) & (turn > LEAST_TURN) & (apart <= MEET)
     # Edges along the rows and columns meet on whole numbers, but for a rounding.
-    meets = np.round(meets, DIGITS)
-    return Corners(own, meets, turn, at - near, at + near).chosen(good)
+    runs = np.round(runs, DIGITS)
+    return Corners(own, runs[:, BETWEEN], turn, at - near, at + near, runs).chosen(good)
 
 
 def _stations(points: FloatArray) -> FloatArray:
@@ -210,8 +278,8 @@ def _room(ways: _Ways, own: IntArray, at: FloatArray) -> tuple[FloatArray, Float
     return at - before, after - at
 
 
-def _candidates(ways: _Ways) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Where ways turn most: the way, the arc length, and by how much."""
+def _turns(ways: _Ways) -> _Turns:
+    """Where ways turn most."""
     step = 0.25
     counts = np.ceil(ways.lengths / step).astype(np.int64)
     own = np.repeat(np.arange(len(counts)), counts)
@@ -232,7 +300,7 @@ def _candidates(ways: _Ways) -> tuple[IntArray, FloatArray, FloatArray]:
             highest = np.maximum(highest, sharp[starts[own] + index % counts[own]])
     index = np.flatnonzero((sharp >= highest - 1e-6) & (sharp > LEAST_TURN))
     if len(index) == 0:
-        return np.empty(0, dtype=np.int64), np.empty(0), np.empty(0)
+        return _Turns(np.empty(0, dtype=np.int64), np.empty(0), np.empty(0))
     # Of a flat top the middle.
     apart = (np.diff(index) > reach) | (np.diff(own[index]) > 0)
     groups = np.split(index, np.flatnonzero(apart) + 1)
@@ -249,7 +317,8 @@ def _candidates(ways: _Ways) -> tuple[IntArray, FloatArray, FloatArray]:
         of += [one] * len(mine)
         begin = end
     which, middle = np.array(of), np.array(middles)
-    return which, step * middle, turn[starts[which] + np.round(middle).astype(int)]
+    angle = np.abs(turn[starts[which] + np.round(middle).astype(int)])
+    return _Turns(which, step * middle, angle)
 
 
 def _turn(before: FloatArray, after: FloatArray) -> FloatArray:
@@ -286,9 +355,13 @@ def _fitted(seen: FloatArray, degree: int) -> tuple[FloatArray, FloatArray]:
 
 
 def _meeting(
-    first: FloatArray, second: FloatArray
+    first: FloatArray, second: FloatArray, near: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Where pairs of sides meet, by Newton's method; turn; how far along; how far apart still."""
+    """Where pairs of sides meet, by Newton's method.
+
+    The points that run there from where each side shows, `near` before and behind; turn; how far
+    along; how far apart still.
+    """
     t = np.zeros((len(first), 2))
 
     def value(side: FloatArray, u: FloatArray) -> FloatArray:
@@ -306,9 +379,15 @@ def _meeting(
         t[:, 1] += (a[:, 0] * gap[:, 1] - a[:, 1] * gap[:, 0]) / det
         t = np.clip(t, -SIDE, SIDE)
     ends = value(first, t[:, 0]), value(second, t[:, 1])
-    meets, apart = 0.5 * (ends[0] + ends[1]), np.hypot(*(ends[0] - ends[1]).T)
+    apart = np.hypot(*(ends[0] - ends[1]).T)
     turn = np.abs(_turn(-slope(first, t[:, 0]), slope(second, t[:, 1])))
-    return meets, turn, 0.5 * (t[:, 1] - t[:, 0]), apart
+    shares = np.arange(1, BETWEEN + 1) / (BETWEEN + 1)
+    between = [
+        [value(side, u + share * (near - u)) for share in shares]
+        for side, u in ((first, t[:, 0]), (second, t[:, 1]))
+    ]
+    runs = np.stack([*between[0][::-1], 0.5 * (ends[0] + ends[1]), *between[1]], axis=1)
+    return runs, turn, 0.5 * (t[:, 1] - t[:, 0]), apart
 
 
 def _distances(
@@ -350,7 +429,7 @@ def _distances(
     return found
 
 
-def with_corners(
+def _with_corners(
     lines: Sequence[FloatArray], corners: Corners, closed: Sequence[bool]
 ) -> list[FloatArray]:
     """Outlines and open lines with corners in place of what lies between their sides."""
@@ -366,9 +445,11 @@ def _with(points: FloatArray, corners: Corners, ring: bool) -> FloatArray:
     kept = np.ones(len(points), dtype=bool)
     for begin, end in zip(corners.begins, corners.ends, strict=True):
         kept &= (s[:-1] - begin) % length > end - begin
-    middles = (0.5 * (corners.begins + corners.ends)) % length
-    order = np.argsort(np.concatenate([s[:-1][kept], middles]), kind="stable")
-    return np.concatenate([points[kept], corners.points])[order]
+    size = corners.runs.shape[1]
+    shares = (np.arange(size) + 1) / (size + 1)
+    runs = corners.begins[:, None] + shares * (corners.ends - corners.begins)[:, None]
+    order = np.argsort(np.concatenate([s[:-1][kept], runs.ravel() % length]), kind="stable")
+    return np.concatenate([points[kept], corners.runs.reshape(-1, 2)])[order]
 
 
 def around(at: FloatArray, size: tuple[int, ...]) -> tuple[IntArray, IntArray, BoolArray]:

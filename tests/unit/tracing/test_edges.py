@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from contourpy import contour_generator
+from matplotlib.path import Path as MplPath
 from scipy.spatial import cKDTree
 from tests.support.rendering import SAMPLES, coverage, dark, polygon, strip
 
 import shapespline as ss
 from shapespline.tracing import trace
+from shapespline.tracing.corners import ANGLES, CUT_OFF
+from shapespline.tracing.coverage import border_coverage
 
 # Rounding to 8 bits moves each of some five pixels across an edge by 1/2 of 255, and counting
 # samples moves the edge by half of their distance at most.
@@ -57,6 +61,74 @@ def test_corners_are_put_back():
     assert distance.max() <= 0.06
     cut = np.hypot(*(contour.level_line[:, None] - corners).transpose(2, 0, 1)).min(axis=0)
     assert cut.min() > 0.1
+
+
+@pytest.mark.parametrize("shift", [(0.5, 0.5), (0.4, 0.55), (0.02, 0.5), (0.97, 0.03)])
+def test_right_angles_are_put_back_wherever_they_lie_in_a_pixel(shift):
+    """In the middle of a pixel a level line cuts off half of its diagonal."""
+    corners = np.array([(10, 10), (48, 10), (48, 30), (10, 30)]) + shift
+    (contour,) = trace(dark(coverage(polygon(corners), 60, 60)))
+    distance = np.hypot(*(contour.points[:, None] - corners).transpose(2, 0, 1)).min(axis=0)
+    assert distance.max() <= np.sqrt(2) * ROUNDING
+
+
+def wedge(angle, direction, corner, size):
+    """A sector of straight sides within a square picture, counter-clockwise."""
+    far = 4 * size
+    rays = direction + 0.5 * angle * np.array([-1, 0, 1])
+    points = [corner, *(corner + far * np.column_stack([np.cos(rays), np.sin(rays)]))]
+    for axis, sign, limit in ((0, 1, 0), (0, -1, size), (1, 1, 0), (1, -1, size)):
+        before, clipped = points[-1], []
+        for point in points:
+            gaps = sign * (before[axis] - limit), sign * (point[axis] - limit)
+            if (gaps[0] > 0) != (gaps[1] > 0):
+                clipped.append(before + gaps[0] / (gaps[0] - gaps[1]) * (point - before))
+            if gaps[1] > 0:
+                clipped.append(point)
+            before = point
+        points = clipped
+    return np.array(points)
+
+
+@pytest.mark.parametrize("degrees", [15.0, 20.0, 30.0, 37.5, 45.0, 60.0, 75.0, 90.0, 120.0, 150.0])
+def test_no_level_line_is_farther_from_a_corner_than_the_table_says(degrees):
+    random, size, farthest = np.random.default_rng(int(degrees)), 18, 0.0
+    rows = np.arange(size)
+    for turn in (0.0, np.radians(0.5 * degrees), *random.uniform(0, 2 * np.pi, 58)):
+        corner = 0.5 * size + random.uniform(-0.5, 0.5, 2)
+        outline = wedge(np.radians(degrees), turn, corner, size)
+        keys, part = border_coverage([outline], size, size)
+        cover = np.array(
+            [
+                [MplPath(outline).contains_point((c + 0.5, size - r - 0.5)) for c in rows]
+                for r in rows
+            ],
+            dtype=float,
+        )
+        cover.reshape(-1)[keys] = part
+        lines = contour_generator(rows + 0.5, size - rows - 0.5, cover).lines(0.5)
+        line = ss.Contour(max(lines, key=len), closed=False).resampled(4000).points
+        farthest = max(farthest, np.hypot(*(line - corner).T).min())
+    assert farthest <= np.interp(degrees, ANGLES, CUT_OFF)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["tee", "comb", "gear 18", "puzzle"])
+def test_corners_of_drawings_are_put_back(name):
+    """A corner that fails takes no other with it; sides that are disturbed farther are tried."""
+    from benchmarks.drawn.tables import rendered
+    from benchmarks.drawn.truth import turn_of
+
+    outlines, picture = rendered(name, 256)
+    points = np.concatenate([contour.points for contour in trace(picture)])
+    off = [
+        np.hypot(*(points - before.end).T).min()
+        for outline in outlines
+        for before, after in zip(outline, outline[1:] + outline[:1], strict=True)
+        if abs(turn_of(before, after)) > 60
+    ]
+    # One of 140: its tooth's tip is bent within the reach of a side.
+    assert np.count_nonzero(np.array(off) > 0.1) <= (name == "gear 18")
 
 
 @pytest.mark.parametrize(("length", "half"), [(30, 9), (33, 12)])
