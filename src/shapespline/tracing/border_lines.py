@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from shapespline.tracing.borders import Arc, Borders, Ring
-    from shapespline.tracing.corners import Corners
     from shapespline.tracing.palette import Palette
+    from shapespline.tracing.sides import Corners
     from shapespline.typing import BoolArray, FloatArray
 
 

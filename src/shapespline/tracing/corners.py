@@ -9,136 +9,39 @@ it adds up to that of the drawing with it: a rounding has less.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from shapespline.tracing.coverage import border_coverage
+from shapespline.tracing.sides import (
+    DISTURBED,
+    NONE,
+    SAME_CORNER,
+    SIDE,
+    Ways,
+    length_of,
+    meetings,
+    stations_of,
+    turns_of,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from shapespline.tracing.field import Field
+    from shapespline.tracing.sides import Corners
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # Angle between the sides, degrees, and the farthest that the level line of a drawing can be from
 # the corner, pixels: measured over all directions and places, area coverage.
 ANGLES = (0.0, 15.0, 20.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 135.0, 150.0, 165.0, 180.0)
 CUT_OFF = (4.0, 3.9, 2.95, 2.03, 1.49, 1.22, 0.93, 0.715, 0.55, 0.42, 0.315, 0.223, 0.154, 0.05)
-# A turn of more, between chords that begin and end so many pixels before and behind.
-LEAST_TURN = np.radians(22.0)
-CHORD = (1.0, 3.4)
-# Candidates nearer than this are one; sides are looked at as far as this, and over no less.
-SAME_CORNER, SIDE, SHORTEST_SIDE = 1.6, 6.0, 0.9
-# A side is disturbed this far from the corner: half a pixel for its column, or more where columns
-# next to it see the corner, and what the other side's square reaches over.
-DISTURBED, SQUARE = (0.75, 1.25, 1.75), 0.5
-# Root mean square distance in pixels of a side to a line and a parabola. The line is taken where it
-# is not so many times worse.
-SMOOTH, TIE, TIE_FACTOR = 0.05, 0.004, 1.5
-SAMPLES, ROUNDS = 9, 4
-# Sides that are still farther apart (pixels) where they are nearest do not meet (TRC-13).
-MEET = 0.01
-_SHARES = np.linspace(0.0, 1.0, SAMPLES)
-_POWERS = _SHARES[:, None] ** np.arange(3)
-# Coefficients of least squares, those beyond the degree nothing.
-_SOLVED = {
-    degree: np.pad(np.linalg.pinv(_POWERS[:, : degree + 1]), ((0, 2 - degree), (0, 0)))
-    for degree in (1, 2)
-}
 # Pixels on either side of a corner whose ink is added up. No more of it may be missing, or be too
 # much, than a rounding of this radius takes and this many square pixels.
 AROUND, ROUNDING, UNCERTAIN = 3, 0.5, 0.03
-# Points of each side between the corner and where the side shows undisturbed.
-BETWEEN = 2
-# Decimals of a pixel that a corner's place has.
-DIGITS = 9
 # Shorter outlines have no sides that show undisturbed.
 SHORTEST_OUTLINE = 16.0
-
-
-class Corners(NamedTuple):
-    """Corners: the outline of each, place, turn, and the arc lengths where its sides take over.
-
-    ``runs`` are the points from one side to the other, the corner in their middle.
-    """
-
-    own: IntArray
-    points: FloatArray
-    turns: FloatArray
-    begins: FloatArray
-    ends: FloatArray
-    runs: FloatArray
-
-    def chosen(self, which: BoolArray) -> Corners:
-        """Some of them."""
-        return Corners(self.own[which], *(column[which] for column in self[1:]))
-
-    def joined(self, other: Corners) -> Corners:
-        """Both, in order along their outlines."""
-        parts = [np.concatenate(pair) for pair in zip(self, other, strict=True)]
-        order = np.lexsort((parts[3] + parts[4], parts[0]))
-        return Corners(*(part[order] for part in parts))
-
-    def by_outline(self, count: int) -> list[Corners]:
-        """Those of each outline."""
-        parts = np.searchsorted(self.own, np.arange(1, count))
-        columns = [np.split(column, parts) for column in self[1:]]
-        own = np.split(self.own, parts)
-        return [Corners(*part) for part in zip(own, *columns, strict=True)]
-
-
-_NONE = Corners(
-    np.empty(0, dtype=np.int64),
-    np.empty((0, 2)),
-    np.empty(0),
-    np.empty(0),
-    np.empty(0),
-    np.empty((0, 2 * BETWEEN + 1, 2)),
-)
-
-
-class _Turns(NamedTuple):
-    """Where ways turn: the way, the arc length, and by how much, radians."""
-
-    own: IntArray
-    at: FloatArray
-    turn: FloatArray
-
-
-class _Ways:
-    """Outlines and open lines side by side: places by arc length, of many at once.
-
-    Attributes
-    ----------
-    lengths : ndarray, shape (k,)
-    closed : ndarray of bool, shape (k,)
-    """
-
-    def __init__(self, lines: Sequence[FloatArray], closed: Sequence[bool]) -> None:
-        whole = [
-            np.concatenate([line, line[:1]]) if ring else line
-            for line, ring in zip(lines, closed, strict=True)
-        ]
-        stations = [_stations(line) for line in whole]
-        self.lengths = np.array([s[-1] for s in stations])
-        self.closed = np.array(closed)
-        self._points, self._s = np.concatenate(whole), np.concatenate(stations)
-        # A way begins a pixel after the one before it ends.
-        self._starts = np.concatenate([[0.0], np.cumsum(self.lengths + 1.0)[:-1]])
-        self._global = self._s + np.repeat(self._starts, [len(s) for s in stations])
-
-    def at(self, own: IntArray, where: FloatArray) -> FloatArray:
-        """Points of some ways at arc lengths; beyond the end of an open one its end."""
-        length = self.lengths[own]
-        where = np.where(self.closed[own], where % length, np.clip(where, 0.0, length))
-        right = np.searchsorted(self._global, self._starts[own] + where, side="right")
-        left = np.clip(right - 1, 0, len(self._s) - 2)
-        begin, end = self._s[left], self._s[left + 1]
-        span = np.where(end > begin, end - begin, 1.0)  # the last point of a way ends none
-        share = np.where(end > begin, where - begin, 0.0) / span
-        a, b = self._points[left], self._points[left + 1]
-        return np.asarray(a + share[..., None] * (b - a))
 
 
 def sharpened(
@@ -188,16 +91,16 @@ def put_back(
     fit : callable
         Which corners fit the picture, of some and the lines with them.
     """
-    long = [length >= SHORTEST_OUTLINE for length in map(_length, lines)]
+    long = [length >= SHORTEST_OUTLINE for length in map(length_of, lines)]
     used = np.flatnonzero(np.array(drawn, dtype=bool) & np.array(long))
     if len(used) == 0:
         return list(lines)
     chosen = used.tolist()
-    ways = _Ways([lines[k] for k in chosen], [closed[k] for k in chosen])
-    turns = _turns(ways)
-    corners = _NONE
+    ways = Ways([lines[k] for k in chosen], [closed[k] for k in chosen])
+    turns = turns_of(ways)
+    corners = NONE
     for disturbed in DISTURBED:
-        found = _meetings(ways, turns, disturbed)
+        found = meetings(ways, turns, disturbed)
         found = found._replace(own=used[found.own])
         far = _distances(found.points, found.own, level_lines, closed)
         cut_off = np.interp(np.degrees(np.pi - found.turns), ANGLES, CUT_OFF)
@@ -224,170 +127,6 @@ def _away(found: Corners, corners: Corners) -> BoolArray:
 def rounded_off(turns: FloatArray) -> FloatArray:
     """Square pixels that a rounding takes from corners."""
     return np.asarray(ROUNDING**2 * (np.tan(0.5 * turns) - 0.5 * turns))
-
-
-def _meetings(ways: _Ways, turns: _Turns, disturbed: float) -> Corners:
-    """Where the sides of ways meet, if they are disturbed as far as that."""
-    own, at, turn = turns
-    if len(own) == 0:
-        return _NONE
-    for _ in range(ROUNDS):
-        near = disturbed + SQUARE * np.tan(0.5 * turn)
-        behind, ahead = _room(ways, own, at)
-        sides, wide = [], np.full(len(at), np.inf)
-        for room, sign in ((behind, -1.0), (ahead, 1.0)):
-            far = np.minimum(SIDE, room - near)
-            sides.append(_side(ways, own, at, near, far, sign))
-            wide = np.minimum(wide, far - near)
-        runs, turn, off, apart = _meeting(sides[0][0], sides[1][0], near)
-        at = at + np.clip(off, -SAME_CORNER, SAME_CORNER)
-        fit = sides[0][1] & sides[1][1]
-        # Corners that change places are none.
-        columns = (own, at, near, wide, runs, turn, apart, fit)
-        while (swapped := (np.diff(at) < 0) & (np.diff(own) == 0)).any():
-            kept = ~(np.append(swapped, False) | np.append(False, swapped))
-            columns = tuple(column[kept] for column in columns)
-            own, at = columns[:2]
-        own, at, near, wide, runs, turn, apart, fit = columns
-    # The sides of a stroke's round end run side by side and meet nowhere.
-    good = fit & (wide >= SHORTEST_SIDE) & (turn > LEAST_TURN) & (apart <= MEET)
-    # Edges along the rows and columns meet on whole numbers, but for a rounding.
-    runs = np.round(runs, DIGITS)
-    return Corners(own, runs[:, BETWEEN], turn, at - near, at + near, runs).chosen(good)
-
-
-def _stations(points: FloatArray) -> FloatArray:
-    """Arc length at each vertex of an open line."""
-    steps = np.diff(points, axis=0)
-    return np.concatenate([[0.0], np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))])
-
-
-def _length(points: FloatArray) -> float:
-    steps = np.diff(points, axis=0)
-    return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-
-
-def _room(ways: _Ways, own: IntArray, at: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Arc length from each candidate to the one before and the one after it, or to an end."""
-    first, last = np.searchsorted(own, own), np.searchsorted(own, own, side="right") - 1
-    index, length, closed = np.arange(len(own)), ways.lengths[own], ways.closed[own]
-    before = np.where(index > first, at[np.maximum(index - 1, 0)],
-                      np.where(closed, at[last] - length, 0.0))  # fmt: skip
-    after = np.where(index < last, at[np.minimum(index + 1, len(own) - 1)],
-                     np.where(closed, at[first] + length, length))  # fmt: skip
-    return at - before, after - at
-
-
-def _turns(ways: _Ways) -> _Turns:
-    """Where ways turn most."""
-    step = 0.25
-    counts = np.ceil(ways.lengths / step).astype(np.int64)
-    own = np.repeat(np.arange(len(counts)), counts)
-    starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    at = step * (np.arange(len(own)) - starts[own])
-    near, far = CHORD
-    before = ways.at(own, at - near) - ways.at(own, at - far)
-    after = ways.at(own, at + far) - ways.at(own, at + near)
-    turn = _turn(before, after)
-    # Nothing turns where a side leaves an open line.
-    turn[~ways.closed[own] & ((at < far) | (at > ways.lengths[own] - far))] = 0.0
-    reach = round(SAME_CORNER / step)
-    sharp = np.abs(turn)
-    highest = sharp.copy()
-    for shift in range(1, reach + 1):
-        for way in (-shift, shift):
-            index = np.arange(len(own)) - starts[own] + way
-            highest = np.maximum(highest, sharp[starts[own] + index % counts[own]])
-    index = np.flatnonzero((sharp >= highest - 1e-6) & (sharp > LEAST_TURN))
-    if len(index) == 0:
-        return _Turns(np.empty(0, dtype=np.int64), np.empty(0), np.empty(0))
-    # Of a flat top the middle.
-    apart = (np.diff(index) > reach) | (np.diff(own[index]) > 0)
-    groups = np.split(index, np.flatnonzero(apart) + 1)
-    middles, of = [], []
-    begin = 0
-    while begin < len(groups):
-        one, end = own[groups[begin][0]], begin
-        while end < len(groups) and own[groups[end][0]] == one:
-            end += 1
-        mine, n, first = groups[begin:end], counts[one], starts[one]
-        if len(mine) > 1 and mine[0][0] - first + n - (mine[-1][-1] - first) <= reach:
-            mine[0] = np.concatenate([mine.pop() - n, mine[0]])
-        middles += [group.mean() - first for group in mine]
-        of += [one] * len(mine)
-        begin = end
-    which, middle = np.array(of), np.array(middles)
-    angle = np.abs(turn[starts[which] + np.round(middle).astype(int)])
-    return _Turns(which, step * middle, angle)
-
-
-def _turn(before: FloatArray, after: FloatArray) -> FloatArray:
-    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-    return np.arctan2(cross, (before * after).sum(axis=1))
-
-
-def _side(
-    ways: _Ways,
-    own: IntArray,
-    at: FloatArray,
-    near: FloatArray,
-    far: FloatArray,
-    sign: float,
-) -> tuple[FloatArray, BoolArray]:
-    """Polynomials of degree 2 in the distance from each corner, shape (k, 3, 2); which fit."""
-    span = np.maximum(far - near, SHORTEST_SIDE)
-    t = near[:, None] + _SHARES * span[:, None]
-    seen = ways.at(np.broadcast_to(own[:, None], t.shape), at[:, None] + sign * t)
-    line, line_off = _fitted(seen, 1)
-    bent, bent_off = _fitted(seen, 2)
-    straight = line_off <= TIE_FACTOR * bent_off + TIE
-    c0, c1, c2 = np.moveaxis(np.where(straight[:, None, None], line, bent), 1, 0)
-    # From a share of the side to the distance from the corner.
-    begin, unit = (near / span)[:, None], 1 / span[:, None]
-    fitted = [c0 - begin * c1 + begin**2 * c2, unit * (c1 - 2 * begin * c2), unit**2 * c2]
-    return np.stack(fitted, axis=1), np.where(straight, line_off, bent_off) <= SMOOTH
-
-
-def _fitted(seen: FloatArray, degree: int) -> tuple[FloatArray, FloatArray]:
-    """Least squares polynomials of degree 2 at most, and the root mean square of what is left."""
-    fitted = _SOLVED[degree] @ seen
-    return fitted, np.sqrt(((_POWERS @ fitted - seen) ** 2).sum(axis=2).mean(axis=1))
-
-
-def _meeting(
-    first: FloatArray, second: FloatArray, near: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Where pairs of sides meet, by Newton's method.
-
-    The points that run there from where each side shows, `near` before and behind; turn; how far
-    along; how far apart still.
-    """
-    t = np.zeros((len(first), 2))
-
-    def value(side: FloatArray, u: FloatArray) -> FloatArray:
-        return side[:, 0] + u[:, None] * (side[:, 1] + u[:, None] * side[:, 2])
-
-    def slope(side: FloatArray, u: FloatArray) -> FloatArray:
-        return side[:, 1] + 2 * u[:, None] * side[:, 2]
-
-    for _ in range(6):
-        gap = value(second, t[:, 1]) - value(first, t[:, 0])
-        a, b = slope(first, t[:, 0]), slope(second, t[:, 1])
-        det = b[:, 0] * a[:, 1] - a[:, 0] * b[:, 1]
-        det = np.where(np.abs(det) < 1e-9, 1e-9, det)
-        t[:, 0] += (b[:, 0] * gap[:, 1] - b[:, 1] * gap[:, 0]) / det
-        t[:, 1] += (a[:, 0] * gap[:, 1] - a[:, 1] * gap[:, 0]) / det
-        t = np.clip(t, -SIDE, SIDE)
-    ends = value(first, t[:, 0]), value(second, t[:, 1])
-    apart = np.hypot(*(ends[0] - ends[1]).T)
-    turn = np.abs(_turn(-slope(first, t[:, 0]), slope(second, t[:, 1])))
-    shares = np.arange(1, BETWEEN + 1) / (BETWEEN + 1)
-    between = [
-        [value(side, u + share * (near - u)) for share in shares]
-        for side, u in ((first, t[:, 0]), (second, t[:, 1]))
-    ]
-    runs = np.stack([*between[0][::-1], 0.5 * (ends[0] + ends[1]), *between[1]], axis=1)
-    return runs, turn, 0.5 * (t[:, 1] - t[:, 0]), apart
 
 
 def _distances(
@@ -440,7 +179,7 @@ def _with_corners(
 
 
 def _with(points: FloatArray, corners: Corners, ring: bool) -> FloatArray:
-    s = _stations(np.concatenate([points, points[:1]]))
+    s = stations_of(np.concatenate([points, points[:1]]))
     length = s[-1]
     kept = np.ones(len(points), dtype=bool)
     for begin, end in zip(corners.begins, corners.ends, strict=True):

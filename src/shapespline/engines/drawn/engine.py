@@ -44,6 +44,10 @@ ROUND = 2.0
 # An outline of more elements than these that have fewer points each, or that contradict their
 # points so many times, is none that was drawn, which takes long to find out (DRA-10).
 MANY_ELEMENTS, POINTS_EACH, MOST_ROUNDS = 40, 10, 30
+# A picture is taken for drawn so many times less exactly than others where that saves so many
+# parameters a pixel: some renderers draw curves as polygons. A free-form run counts once for so
+# many pixels (DRA-13).
+ROUGH, SAVED, LONG = 3.0, 0.03, 25.0
 # Data within so many steps of a node tell its direction.
 DIRECTION_STEPS = 4
 
@@ -79,11 +83,14 @@ def as_drawn(
         return None
     seen = Observed.of(contour, accuracy)
     if contour.closed:
-        whole = _whole_circle(seen)
+        whole = _whole_circle(_rough(seen, tolerance) or seen)
         if whole is not None:
             return Drawn((whole,), ())
-    row = supported(segmented(seen), contour.closed)
+    seen, row = _as_exact_as_drawn(seen, tolerance)
+    row = supported(row, contour.closed)
     if len(row.found) > max(MANY_ELEMENTS, len(seen.points) / POINTS_EACH):
+        return None
+    if contour.closed and len(row.found) == 1:  # an arc that is no circle
         return None
     model = None
     for _ in range(min(len(row.found), MOST_ROUNDS)):
@@ -104,6 +111,25 @@ def as_drawn(
             return _drawn(model, found, tolerance)
         row = supported(_without(row, bad), contour.closed)
     return None
+
+
+def _rough(seen: Observed, tolerance: float) -> Observed | None:
+    """A picture's outline taken for less exact, where a tolerance leaves room for that."""
+    room = seen.pixel and ROUND * ROUGH * seen.largest_deviation <= tolerance
+    return seen.rougher(ROUGH) if room else None
+
+
+def _as_exact_as_drawn(seen: Observed, tolerance: float) -> tuple[Observed, Segments]:
+    """The outline as its picture shows it, or less exact where that is much shorter to tell."""
+    row, rough = segmented(seen), _rough(seen, tolerance)
+    if rough is None:
+        return seen, row
+    long, least = LONG * seen.pixel, SAVED * row.stations[-1] / seen.pixel
+    told = row.n_parameters(long)
+    if told <= least:
+        return seen, row
+    again = segmented(rough)
+    return (rough, again) if told - again.n_parameters(long) > least else (seen, row)
 
 
 def _whole_circle(seen: Observed) -> DrawnArc | None:

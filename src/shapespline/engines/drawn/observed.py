@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil
 from typing import TYPE_CHECKING
@@ -78,6 +78,16 @@ class Observed:
             deviation = max(deviation / k**0.5, LAST_DIGIT * extent)
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
         return cls(points, closed, deviation, deviation, 0.0, 0.0)
+
+    def rougher(self, factor: float) -> Observed:
+        """The same of a picture so many times less exact than its kind is."""
+        deviation = factor * self.largest_deviation
+        return replace(
+            self,
+            deviation=deviation,
+            largest_deviation=deviation,
+            floor=SYSTEMATIC * deviation,
+        )
 
     @property
     def skip(self) -> float:

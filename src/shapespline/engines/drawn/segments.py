@@ -19,7 +19,7 @@ LINE, ARC, FREE = 0, 1, 2
 # Nats per parameter; smooth joints turn by less than this, radians (DRA-01).
 PRICE, SMOOTH = 4.0, 0.14
 # A free-form curve counts as so many parameters (DRA-01).
-FREE_PARAMETERS = 5.0
+FREE_PARAMETERS, ARC_PARAMETERS = 5.0, 3.0
 # Prices of joints in those of a parameter: what is seldom drawn costs, or smooth chains of arcs
 # follow anything (DRA-01).
 JOINTS = _kernels.JointPrices(
@@ -66,6 +66,18 @@ class Segments(NamedTuple):
     weights: FloatArray
     first: int
     found: tuple[Segment, ...]
+
+    def n_parameters(self, long: float) -> float:
+        """Numbers that tell the segments, joints aside; free-form ones take more the longer.
+
+        A line counts as an arc does: what is taken for less exact must not save by straightness.
+        """
+        found = 0.0
+        for i, j, kind in self.found:
+            length = float(self.stations[j] - self.stations[i])
+            free = FREE_PARAMETERS * max(1.0, length / long)
+            found += free if kind == FREE else ARC_PARAMETERS
+        return found
 
     def turned(self, k: int) -> Segments:
         """Those of a closed outline, beginning with segment k."""

@@ -94,6 +94,50 @@ def test_a_circle_is_one_arc_and_a_pebble_none():
     assert as_drawn(Contour(pebble[:10], closed=True)) is None  # too few to tell
 
 
+def stepped(corners, step=1.0):
+    """Points of a polygon as a picture has them, about a pixel apart."""
+    return np.concatenate(
+        [
+            side(a, b, max(int(np.hypot(*(b - a)) / step), 1))
+            for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)
+        ]
+    )
+
+
+def test_a_picture_that_was_drawn_with_polygons_for_arcs_has_arcs():
+    """Some renderers draw curves as chords, here 0.15 pixels off: as exact as they are, many."""
+    ends = [arc((x, 0), 40, begin, 180, 18) for x, begin in ((60, -90), (-60, 90))]
+    corners = np.concatenate([ends[0], [(60, 40)], ends[1], [(-60, -40)]])
+    assert 40 * (1 - np.cos(np.radians(5))) == pytest.approx(0.15, abs=0.005)
+    contour = Contour(stepped(corners), closed=True)
+    found = as_drawn(contour, 0.02)
+    assert sorted(kinds(found)) == list("AALL")
+    radii = [part.arc.radius for part in found.parts if isinstance(part, DrawnArc)]
+    assert np.allclose(radii, 40, atol=0.15)
+    # A tolerance that leaves no room for that takes the picture at its word.
+    tight = as_drawn(contour, 0.02, tolerance=0.1)
+    assert tight is None or len(tight.parts) > 20
+
+
+def test_a_picture_of_a_polygon_whose_corners_show_stays_one():
+    corners = arc((0, 0), 60, 0, 360, 12)
+    found = as_drawn(Contour(stepped(corners), closed=True), 0.02)
+    assert kinds(found) == 12 * "L"
+
+
+def test_flat_arcs_beside_corners_are_told_from_lines():
+    """Tips and roots of a gear are a fifth of a pixel higher than their chords."""
+    rows = []
+    for k in range(24):
+        for radius, begin in ((107.5, 15 * k), (90.3, 15 * k + 7.5)):
+            rows.append(arc((0, 0), radius, begin + 0.5, 6.5, 12))
+            a = arc((0, 0), radius, begin + 7.0, 1, 1)[0]
+            b = arc((0, 0), 197.8 - radius, begin + 8.0, 1, 1)[0]
+            rows.append(side(a, b, 17))
+    found = as_drawn(Contour(np.concatenate(rows), closed=True), 0.02)
+    assert sorted(kinds(found)) == sorted(48 * "AL")
+
+
 def test_an_open_row_ends_where_it_does():
     row = np.concatenate([side((0, 0), (30, 0), 40), arc((30, 10), 10, -90, 90, 30), [[40, 10]]])
     found = as_drawn(Contour(row, closed=False))
