@@ -10,7 +10,7 @@ import numpy as np
 from shapespline.errors import InvalidInputError
 from shapespline.geometry.nearest import nearest
 from shapespline.geometry.polygons import polyline_curve
-from shapespline.values import BSplineCurve, Contour, Drawing, Fit, Shape
+from shapespline.values import Arc, BSplineCurve, Contour, Drawing, Fit, Shape
 
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray
@@ -60,7 +60,7 @@ def compare(first: Curves, second: Curves) -> Comparison:
     Returns
     -------
     Comparison
-        Distances of about 20 000 samples of each to the exact curves of the other.
+        Distances of about 20 000 samples of each to the exact curves of the other, arcs included.
 
     Examples
     --------
@@ -83,15 +83,15 @@ def compare(first: Curves, second: Curves) -> Comparison:
     )
 
 
-def _curves(value: Curves, name: str) -> list[BSplineCurve]:
+def _curves(value: Curves, name: str) -> list[BSplineCurve | Arc]:
     if isinstance(value, BSplineCurve):
         return [value]
     if isinstance(value, Fit):
-        return [value.spline]
+        return value.exact_parts
     if isinstance(value, Contour):
         return [polyline_curve(value)]
     if isinstance(value, Drawing):
-        return [fit.spline for fit in value]
+        return [part for fit in value for part in fit.exact_parts]
     if isinstance(value, Shape):
         return [polyline_curve(contour) for contour in value]
     raise InvalidInputError(
@@ -99,38 +99,57 @@ def _curves(value: Curves, name: str) -> list[BSplineCurve]:
     )
 
 
-def _samples(curves: list[BSplineCurve]) -> tuple[FloatArray, float]:
+def _samples(curves: list[BSplineCurve | Arc]) -> tuple[FloatArray, float]:
     """Points at about equal arc length on all curves, and the largest step between two."""
     lengths = np.array([curve.length() for curve in curves])
     total = float(lengths.sum())
     parts, largest = [], 0.0
-    for curve, length in zip(curves, lengths, strict=True):
-        breakpoints = curve.breakpoints
-        fine = SAMPLES_OF_A_PIECE * (len(breakpoints) - 1) + int(SAMPLES * length / (total or 1.0))
-        # Equal steps of the parameter within each piece, as many as its length asks for.
-        ends = curve(breakpoints)
-        chords = np.hypot(*np.diff(ends, axis=0).T)
-        share = chords / (chords.sum() or 1.0)
-        counts = np.maximum(SAMPLES_OF_A_PIECE, np.ceil(fine * share).astype(int))
-        at = [
-            np.linspace(begin, end, count, endpoint=False)
-            for begin, end, count in zip(breakpoints[:-1], breakpoints[1:], counts, strict=True)
-        ]
-        points = curve(np.concatenate([*at, breakpoints[-1:]]))
+    for curve, length in zip(curves, lengths.tolist(), strict=True):
+        count = int(SAMPLES * length / (total or 1.0))
+        points = (
+            curve.at(np.linspace(0.0, 1.0, SAMPLES_OF_A_PIECE + count + 1))
+            if isinstance(curve, Arc)
+            else _samples_of(curve, count)
+        )
         largest = max(largest, float(np.hypot(*np.diff(points, axis=0).T).max()))
         parts.append(points)
     return np.concatenate(parts), largest
 
 
-def _distances(points: FloatArray, curves: list[BSplineCurve]) -> FloatArray:
+def _samples_of(curve: BSplineCurve, count: int) -> FloatArray:
+    """Equal steps of the parameter within each piece, as many as its length asks for."""
+    breakpoints = curve.breakpoints
+    fine = SAMPLES_OF_A_PIECE * (len(breakpoints) - 1) + count
+    ends = curve(breakpoints)
+    chords = np.hypot(*np.diff(ends, axis=0).T)
+    share = chords / (chords.sum() or 1.0)
+    counts = np.maximum(SAMPLES_OF_A_PIECE, np.ceil(fine * share).astype(int))
+    at = [
+        np.linspace(begin, end, count, endpoint=False)
+        for begin, end, count in zip(breakpoints[:-1], breakpoints[1:], counts, strict=True)
+    ]
+    return np.asarray(curve(np.concatenate([*at, breakpoints[-1:]])))
+
+
+def _distances(points: FloatArray, curves: list[BSplineCurve | Arc]) -> FloatArray:
     """Distance of each point to the nearest of the curves."""
     nearest_sq = np.full(len(points), np.inf)
     for curve in curves:
-        # A curve lies in the box of its control points: most points need not ask it.
-        low, high = curve.control_points.min(axis=0), curve.control_points.max(axis=0)
-        outside = np.maximum(np.maximum(low - points, points - high), 0.0)
+        # A curve lies in the box of its control points, an arc in that of its circle: most points
+        # need not ask it.
+        box = (
+            np.add.outer([-curve.radius, curve.radius], curve.centre)
+            if isinstance(curve, Arc)
+            else curve.control_points
+        )
+        outside = np.maximum(np.maximum(box.min(axis=0) - points, points - box.max(axis=0)), 0.0)
         near = np.flatnonzero((outside**2).sum(axis=1) < nearest_sq)
-        if len(near):
-            found = nearest(curve, points[near]).distances_sq
-            nearest_sq[near] = np.minimum(nearest_sq[near], found)
+        if len(near) == 0:
+            continue
+        found = (
+            curve.distances(points[near]) ** 2
+            if isinstance(curve, Arc)
+            else nearest(curve, points[near]).distances_sq
+        )
+        nearest_sq[near] = np.minimum(nearest_sq[near], found)
     return np.sqrt(nearest_sq)

@@ -47,7 +47,7 @@ def test_the_spacing_bounds_what_lies_between_samples():
 
 def test_fits_and_drawings_compare_by_their_curves():
     contour = ss.Contour(on_circle(200), closed=True)
-    fit = ss.fit_curve(contour, tolerance=0.01)
+    fit = ss.fit_curve(contour, tolerance=0.01, character="fewest")
     found = ss.compare(contour, fit)
     assert found == ss.compare(contour, ss.Drawing([fit])) == ss.compare(contour, fit.spline)
     assert found.hausdorff_distance <= fit.hausdorff_distance + found.spacing / 2
@@ -80,3 +80,16 @@ def test_a_list_of_fits_is_written_with_its_nesting(tmp_path):
     for wrong in ([], [fits[0], 3], 3):
         with pytest.raises(ss.InvalidInputError, match="or a list of fits or contours"):
             ss.write(tmp_path / "no.json", wrong)
+
+
+def test_arcs_are_compared_themselves_and_not_by_the_curves_that_stand_for_them(tmp_path):
+    angle = np.pi * (np.arange(30) / 30 - 0.5)
+    end = np.column_stack([20 + 8 * np.cos(angle), 8 * np.sin(angle)])
+    side = np.column_stack([40 * np.arange(30) / 30 - 20, np.full(30, -8.0)])
+    fit = ss.fit_curve(np.concatenate([side, end, -side, -end]), closed=True, tolerance=0.5)
+    assert sorted(piece.kind for piece in fit.pieces) == ["arc", "arc", "line", "line"]
+    assert ss.compare(fit, fit.spline).hausdorff_distance > 1e-4
+    ss.write(tmp_path / "slot.json", fit)
+    # Written with the shortest digits that read back the same; a dozen operations on numbers of 30.
+    back = ss.compare(fit, tmp_path / "slot.json").hausdorff_distance
+    assert back < 12 * 30 * np.finfo(float).eps
