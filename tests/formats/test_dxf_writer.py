@@ -160,3 +160,13 @@ def test_options_that_do_not_go_together(tmp_path):
     with pytest.raises(InvalidInputError, match="arc_tolerance must be a positive length"):
         ss.write(tmp_path / "x.dxf", nested(), arcs=True, arc_tolerance=-1)
     assert not (tmp_path / "x.dxf").exists()
+
+
+@pytest.mark.parametrize("options", [{}, {"arcs": True}, {"release": "R12"}])
+def test_the_file_says_its_extents(tmp_path, options):
+    drawing = Drawing([fit_of(blob(11, 3))])
+    ss.write(tmp_path / "drawing.dxf", drawing, **options)
+    header = ezdxf.readfile(tmp_path / "drawing.dxf").header
+    low, high = drawing.bounds[:2], drawing.bounds[2:]
+    assert header["$EXTMIN"] == (*low, 0.0)
+    assert header["$EXTMAX"] == (*high, 0.0)

@@ -110,9 +110,9 @@ def encode(
                 layer = _layer(document, color)
                 for number in range(before, len(space)):
                     space[number].dxf.layer = layer
-        points = np.concatenate([fit.contour.points for fit in drawing])
-        document.header["$EXTMIN"] = (*points.min(axis=0).tolist(), 0.0)
-        document.header["$EXTMAX"] = (*points.max(axis=0).tolist(), 0.0)
+        # The library writes the extents of its model space over those of the header.
+        box = drawing.bounds
+        space.reset_extents((box.x_min, box.y_min, 0.0), (box.x_max, box.y_max, 0.0))
         document.write(text)
     return text.getvalue().encode(document.output_encoding, errors="dxfreplace")
 
