@@ -38,8 +38,9 @@ if TYPE_CHECKING:
 ANGLES = (0.0, 15.0, 20.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 135.0, 150.0, 165.0, 180.0)
 CUT_OFF = (4.0, 3.9, 2.95, 2.03, 1.49, 1.22, 0.93, 0.715, 0.55, 0.42, 0.315, 0.223, 0.154, 0.05)
 # Pixels on either side of a corner whose ink is added up. No more of it may be missing, or be too
-# much, than a rounding of this radius takes and this many square pixels.
-AROUND, ROUNDING, UNCERTAIN = 3, 0.5, 0.03
+# much, than a rounding of this radius takes or a tip of this length has, and this many square
+# pixels.
+AROUND, ROUNDING, TIP, UNCERTAIN = 3, 0.5, 1.5, 0.03
 # Shorter outlines have no sides that show undisturbed.
 SHORTEST_OUTLINE = 16.0
 
@@ -125,8 +126,9 @@ def _away(found: Corners, corners: Corners) -> BoolArray:
 
 
 def rounded_off(turns: FloatArray) -> FloatArray:
-    """Square pixels that a rounding takes from corners."""
-    return np.asarray(ROUNDING**2 * (np.tan(0.5 * turns) - 0.5 * turns))
+    """Square pixels that a rounding takes from corners, of acute ones no more than a tip has."""
+    half = np.tan(0.5 * turns)
+    return np.asarray(np.minimum(ROUNDING**2 * (half - 0.5 * turns), TIP**2 / half))
 
 
 def _distances(

@@ -72,6 +72,19 @@ def test_right_angles_are_put_back_wherever_they_lie_in_a_pixel(shift):
     assert distance.max() <= np.sqrt(2) * ROUNDING
 
 
+def test_a_narrow_notch_with_a_blunt_end_gets_no_long_tip():
+    """Its sides would meet 1.6 pixels farther, where no more than 0.4 square pixels differ."""
+
+    def inside(x, y):
+        left = 23.8 + (y - 34.1) * np.tan(np.radians(17.0))
+        notch = (y < 34.1) & (x > left) & (x < 24.3)
+        return (np.abs(x - 30) < 25) & (np.abs(y - 30) < 25) & ~notch
+
+    contour = trace(dark(coverage(inside, 60, 60)), polarity="dark").longest
+    near = contour.points[np.abs(contour.points[:, 0] - 24.3) < 2]
+    assert near[near[:, 1] < 50, 1].max() <= 34.1 + 0.5
+
+
 def wedge(angle, direction, corner, size):
     """A sector of straight sides within a square picture, counter-clockwise."""
     far = 4 * size
