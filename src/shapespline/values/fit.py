@@ -257,7 +257,8 @@ class Fit(ByValue, Shown, Exchanged, FitMethods):
     def _known_uncertainty(self) -> Uncertainty:
         if self.uncertainty is None:
             raise InvalidInputError(
-                "fit knows no errors of its points: make it with optimize(..., sigma=)"
+                "fit knows no errors of its points: make it with sigma=, which fit_curve and"
+                " optimize take"
             )
         return self.uncertainty
 
