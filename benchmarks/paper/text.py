@@ -172,7 +172,7 @@ def _questions(found: Findings) -> list[str]:
         ),
         f"    shapespline paper INPUT --method {quick} -o FOLDER",
         paragraph(
-            "**What does it cost?** The start less than a millisecond for 840 points, an iteration"
+            "**What does it cost?** The start about a millisecond for 840 points, an iteration"
             " of D-BFGS O(n); `convergence.csv` and `table.csv` of a run have iterations,"
             " evaluations and seconds.",
         ),

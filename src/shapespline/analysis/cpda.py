@@ -158,7 +158,12 @@ def moving_average(values: FloatArray, window: int, *, closed: bool) -> FloatArr
     half = min(check_window(window) // 2, len(values) - 1)
     if half == 0:
         return values
-    padded = np.pad(values, half, mode="wrap" if closed else "reflect")
+    before, after = (
+        (values[-half:], values[:half])
+        if closed
+        else (values[half:0:-1], values[-2 : -half - 2 : -1])
+    )
+    padded = np.concatenate([before, values, after])
     return np.convolve(padded, np.full(2 * half + 1, 1.0 / (2 * half + 1)), mode="valid")
 
 
@@ -240,11 +245,15 @@ def _spaced(index: IntArray, heights: FloatArray, spacing: int, period: int | No
     kept: list[int] = []
     for candidate in index[np.argsort(-heights, kind="stable")].tolist():
         at = bisect_left(kept, candidate)
-        apart = [abs(candidate - kept[i]) for i in (at - 1, at) if 0 <= i < len(kept)]
-        if period is not None and kept:
-            apart += [candidate + period - kept[-1], kept[0] + period - candidate]
-        if all(gap >= spacing for gap in apart):
-            kept.insert(at, candidate)
+        if at > 0 and candidate - kept[at - 1] < spacing:
+            continue
+        if at < len(kept) and kept[at] - candidate < spacing:
+            continue
+        if period is not None and kept:  # around the seam
+            round_about = (candidate + period - kept[-1], kept[0] + period - candidate)
+            if min(round_about) < spacing:
+                continue
+        kept.insert(at, candidate)
     return np.array(kept, dtype=np.int64)
 
 

@@ -50,11 +50,15 @@ def noise_level(contour: Contour) -> float:
     width = 2 * HALF_WINDOW + 1
     if len(contour) < FEWEST_POINTS:
         return known
-    n = len(contour)
-    first, n_windows = (-HALF_WINDOW, n) if contour.closed else (0, n - width + 1)
-    begins = np.arange(first, first + n_windows, max(1, n_windows // MOST_WINDOWS))
-    index = (begins[:, None] + np.arange(width)) % n
-    x, y = ((axis[index] - axis[0]) @ _SLOPE_AND_REST for axis in contour.points.T)
+    points = contour.points - contour.points[0]
+    if contour.closed:
+        points = np.concatenate([points[-HALF_WINDOW:], points, points[:HALF_WINDOW]])
+    n_windows = len(points) - width + 1
+    step = max(1, n_windows // MOST_WINDOWS)
+    windows = np.empty((2, len(range(0, n_windows, step)), width))
+    for k in range(width):
+        windows[:, :, k] = points[k : k + n_windows : step].T
+    x, y = (axis @ _SLOPE_AND_REST for axis in windows)
     across = x[:, 1:] * y[:, :1] - y[:, 1:] * x[:, :1]
     speed_sq = np.maximum(x[:, 0] ** 2 + y[:, 0] ** 2, np.finfo(float).tiny)
     level_sq = median((across**2).sum(axis=1) / speed_sq) / _CHI_SQUARED_MEDIAN
