@@ -32,7 +32,7 @@ from shapespline.solvers import Limits
 def methods_convergence() -> None:
     """Cost over iterations from one start, by method; feet before and after."""
     contour = outline("loop500_open")
-    start = ss.initial_curve(contour, 12)
+    start = ss.initial_curve(contour, 12, n_control_points=9)
     limits = Limits(max_iterations=100, max_evaluations=1000, relative_decrease=1e-9)
     figure, (left, right) = canvas(12.5, 4.6, 2)
     fit = ss.optimize(contour, start, method="levenberg-marquardt")

@@ -225,11 +225,20 @@ class CurveProblem:
         return np.divide(ratio, total, out=np.zeros_like(ratio), where=outer)
 
     def projected(self, x: FloatArray) -> FloatArray:
-        """The vector with every parameter at the nearest foot point on the whole curve.
+        """The vector with every parameter at a foot point; its cost is no higher.
 
-        No residual grows. A foot point nearby would do after a small step; after a large one, or at
-        the start, it stays on the wrong branch whatever follows.
+        On the whole curve, for a foot point nearby stays on the wrong branch after a large step or
+        at the start. But where the curve crosses itself the nearest branch need not be that of the
+        neighbours, and the residuals between neighbours that drift apart tell so: then nearby.
         """
+        cost = self.cost(x)
+        for moved in (self._at_nearest_feet(x), self.projected_nearby(x)):
+            if self.cost(moved) <= cost:
+                return moved
+        return x.copy()
+
+    def _at_nearest_feet(self, x: FloatArray) -> FloatArray:
+        """The vector with every parameter at the nearest foot point; no point gets farther away."""
         moved = x.copy()
         parameters = self.unpack(moved)[1]
         curve = self.curve(x)
