@@ -1,6 +1,7 @@
 """A session without a browser: what is asked is answered, newer fits end older ones."""
 
 import io
+import json
 import queue
 import time
 
@@ -219,6 +220,26 @@ def test_regularities_are_listed_by_kind_and_switched_off_by_kind(page):
     names = {one["name"] for one in page.next("fit")["regularities"]}
     assert names
     assert names <= set(kept)
+
+
+def test_what_outlines_repeat_is_listed_of_the_drawing(page):
+    angles = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    ring = np.column_stack([np.cos(angles), np.sin(angles)])
+    rings = [4 * ring + (x, 0.0) for x in (-30, 0, 30)]
+    features = [
+        {"type": "Polygon", "coordinates": [[*one.tolist(), one[0].tolist()]]} for one in rings
+    ]
+    document = {"type": "GeometryCollection", "geometries": features}
+    page.session._document = opened("rings.geojson", json.dumps(document).encode(), {})
+    page.session.greet()
+    page.say(type="fit", generation=2, settings={"tolerance": 0.1, "character": "drawn"})
+    listed = page.next("done")["regularities"]
+    found = {one["name"]: one for one in listed}
+    assert found["equal-radius"]["pieces"] == [0, 1, 2]
+    assert {one["noun"] for one in listed} == {"outline"}
+    # Drafts look for nothing.
+    page.say(type="fit", generation=3, draft=True, settings={"tolerance": 0.1})
+    assert page.next("done")["regularities"] == []
 
 
 @pytest.mark.slow

@@ -90,6 +90,15 @@ def test_regularities_have_a_switch_for_each_kind(page):
     page.click("#regularities summary")
     page.hover("#regularities li li")
     assert len(page.evaluate("studio.regular.marked")) > 0
+    # What outlines repeat, the holes of the plate, is of whole outlines.
+    repeated = page.locator("#regularities li li", has_text="outlines").first
+    page.evaluate(
+        "document.querySelectorAll('#regularities details').forEach(one => one.open = true)"
+    )
+    repeated.hover()
+    (marked,) = page.evaluate("studio.regular.marked")
+    assert marked["noun"] == "outline"
+    assert len(marked["pieces"]) > 1
     page.uncheck("#regular-axis-parallel")
     until(page, DONE)
     names = "new Set(studio.fitter.fits.flatMap(f => f.regularities.map(r => r.name)))"

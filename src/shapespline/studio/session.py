@@ -28,16 +28,16 @@ from shapespline.studio.documents import (
 from shapespline.studio.examples import EXAMPLES, example_bytes
 from shapespline.studio.jobs import Cancelled, Lane
 from shapespline.studio.messages import packed, unpacked
-from shapespline.studio.sketch import sketch
+from shapespline.studio.sketch import regularities, sketch
 from shapespline.values import Drawing
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from shapespline.studio.jobs import Ticket
     from shapespline.studio.reading import Readers
     from shapespline.typing import FloatArray, IntArray
-    from shapespline.values import Fit
+    from shapespline.values import Fit, Regularity
 
 LOG = logging.getLogger(__name__)
 # Drawings of more points are not encoded while a slider moves, to tell how large the file would be.
@@ -229,6 +229,7 @@ class Session:
         def work(ticket: Ticket) -> None:
             began = perf_counter()
             found: Iterable[tuple[int, Fit]]
+            across: Sequence[Regularity] = ()
             if with_peer:
                 tolerance = float(header["tolerance"])
                 found = (
@@ -240,7 +241,8 @@ class Session:
             elif draft or not asked.is_plain:
                 found = ((k, fits.fitted(asked, k, ticket, draft=draft)) for k in order)
             else:
-                found = enumerate(fits.whole(asked, ticket))
+                made_as_one = fits.whole(asked, ticket)
+                found, across = enumerate(made_as_one), made_as_one.regularities
             kept: dict[int, Fit] = {}
             lines: dict[int, FloatArray] = {}
             for index, fit in found:
@@ -252,7 +254,8 @@ class Session:
                 about = {"type": "fit", "generation": ticket.generation, "outline": index}
                 about |= {"slot": slot, "draft": draft, "seconds": perf_counter() - began}
                 self._say({**about, **made.figures}, made.arrays)
-            drawing = Drawing.of(document.shape, [kept[k] for k in range(n_outlines)])
+            every = [kept[k] for k in range(n_outlines)]
+            drawing = Drawing.of(document.shape, every, regularities=across)
             if not draft:
                 self._drawings[slot] = drawing
             about = {"slot": slot, "draft": draft, "seconds": perf_counter() - began}
@@ -273,6 +276,7 @@ class Session:
             "n_bytes": n_bytes,
             "n_kept": sum(fit.kept for fit in drawing),
             "distance": max(fit.hausdorff_distance for fit in drawing),
+            "regularities": regularities(drawing.regularities),
         }
         said = {"type": "done", "generation": ticket.generation, **about, **figures}
         self._say(said, {"crossings": met})

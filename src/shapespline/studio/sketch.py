@@ -11,10 +11,12 @@ from shapespline.geometry import nearest
 from shapespline.values import CORNER_TURN, BSplineCurve
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from scipy.spatial import cKDTree
 
     from shapespline.typing import FloatArray, IntArray
-    from shapespline.values import Contour, Fit, Piece
+    from shapespline.values import Contour, Fit, Piece, Regularity
 
 # Samples of a curve for its colours, its comb and its graph: as many on the whole, so many a span.
 SAMPLES, FEWEST, MOST = 3000, 4, 24
@@ -87,12 +89,23 @@ def sketch(fit: Fit, origin: FloatArray, drawn: IntArray | None = None) -> Sketc
         "n_kinds": Counter(kinds),
         "knots": len(fit.spline.breakpoints),
         "n_outliers": len(fit.outliers),
-        "regularities": [
-            {"name": one.name, "text": str(one), "pieces": list(one.pieces), "off": one.off}
-            for one in fit.regularities
-        ],
+        "regularities": regularities(fit.regularities),
     }
     return Sketch(figures, arrays)
+
+
+def regularities(found: Sequence[Regularity]) -> list[dict[str, Any]]:
+    """Regularities of a fit or a drawing as the page lists them."""
+    return [
+        {
+            "name": one.name,
+            "noun": one.noun,
+            "pieces": list(one.pieces),
+            "off": one.off,
+            "order": one.order,
+        }
+        for one in found
+    ]
 
 
 def cubics(piece: Piece) -> FloatArray:

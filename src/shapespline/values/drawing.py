@@ -25,11 +25,11 @@ if TYPE_CHECKING:
 
     from shapespline.geometry import Box
     from shapespline.typing import ArrayLike
-    from shapespline.values.regularity import Regularity
     from shapespline.values.view_box import ViewBox
 from shapespline.values.equality import ByValue
 from shapespline.values.exchanged import Exchanged
 from shapespline.values.fit import Fit
+from shapespline.values.regularity import OutlineRegularity, Regularity
 from shapespline.values.shown import Shown
 
 
@@ -62,7 +62,7 @@ class Drawing(ByValue, Shown, Exchanged):
     unit: str | None
     colors: tuple[str | None, ...]
     reference: str | None
-    regularities: tuple[Regularity, ...]
+    regularities: tuple[OutlineRegularity, ...]
 
     def __init__(
         self,
@@ -87,7 +87,8 @@ class Drawing(ByValue, Shown, Exchanged):
         object.__setattr__(self, "unit", checked_unit(unit))
         object.__setattr__(self, "colors", checked_colors(colors, len(fits)))
         object.__setattr__(self, "reference", checked_reference(reference))
-        object.__setattr__(self, "regularities", tuple(regularities))
+        listed = tuple(OutlineRegularity._make(one) for one in regularities)
+        object.__setattr__(self, "regularities", listed)
 
     @classmethod
     def of(

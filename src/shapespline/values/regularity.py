@@ -1,4 +1,4 @@
-"""Regularity: something that the pieces of a curve keep exactly."""
+"""Regularity: something that the pieces of a curve, or the outlines of a drawing, keep exactly."""
 
 from __future__ import annotations
 
@@ -33,5 +33,27 @@ class Regularity(NamedTuple):
 
     def __str__(self) -> str:
         name = f"{self.order}-fold {self.name}" if self.name == "rotation" else self.name
-        count = f"{len(self.pieces)} piece{'s' if len(self.pieces) > 1 else ''}"
+        count = f"{len(self.pieces)} {self.noun}{'s' if len(self.pieces) > 1 else ''}"
         return f"{name}, {count}, off by {abs(self.off):.3g} before"
+
+    @property
+    def noun(self) -> str:
+        """What is counted: pieces of a curve."""
+        return "piece"
+
+
+class OutlineRegularity(Regularity):
+    """Something that outlines of a drawing keep exactly: ``pieces`` are places of its fits.
+
+    Examples
+    --------
+    >>> print(OutlineRegularity("equal-copies", (1, 2, 3), 0.004))
+    equal-copies, 3 outlines, off by 0.004 before
+    """
+
+    __slots__ = ()
+
+    @property
+    def noun(self) -> str:
+        """What is counted: outlines of a drawing."""
+        return "outline"

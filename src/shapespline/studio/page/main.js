@@ -7,7 +7,7 @@ import { Fitter } from "./fitter.js";
 import { onceAFrame } from "./frames.js";
 import { Graph } from "./graph.js";
 import { Keys } from "./keys.js";
-import { drawCrop, drawHover, drawMeasure, drawOwn, drawPieces } from "./marks.js";
+import { drawCrop, drawHover, drawMeasure, drawOwn, drawRegular } from "./marks.js";
 import { Panel, sentence } from "./panel.js";
 import { Paper } from "./paper.js";
 import { Picture } from "./picture.js";
@@ -48,7 +48,7 @@ export class App {
     this.scene.tolerance = () => (this.store.now.goal === "tolerance" ? this.store.now.tolerance : this.fitter.fits[this.scene.outline]?.tolerance ?? null);
     this.scene.above.push(
       (scene, c) => this.paper.draw(scene, c),
-      (scene, c) => { if (!this.paper.on) drawPieces(scene, c, this.regular.marked); },
+      (scene, c) => { if (!this.paper.on) drawRegular(scene, c, this.regular.marked); },
       (scene, c) => { if (!this.paper.on) drawOwn(scene, c, this.store.now.own); },
       (scene, c) => drawHover(scene, c, this.tools.hover ?? this.graph.place),
       (scene, c) => { if (this.tools.mode === "measure") drawMeasure(scene, c, this.tools.ends); },

@@ -90,22 +90,31 @@ export function drawCrop(scene, c, ends) {
   c.setLineDash([]);
 }
 
-/** Pieces of a fit that are spoken of, as a broad line behind their own. @param {Scene} scene
- * @param {CanvasRenderingContext2D} c @param {number[]} pieces */
-export function drawPieces(scene, c, pieces) {
-  const fit = scene.fits()[scene.outline];
-  if (!fit || !pieces.length) return;
-  const chosen = new Set(pieces);
-  c.beginPath();
+/** The pieces of a fit, or some of them, on the path. @param {CanvasRenderingContext2D} c
+ * @param {import("./types.js").Fit | undefined} fit @param {Set<number>} [chosen] */
+function addPieces(c, fit, chosen) {
   let at = 0;
-  fit.counts.forEach((count, piece) => {
-    for (let k = at; k < at + count && chosen.has(piece); k++) {
+  fit?.counts.forEach((count, piece) => {
+    for (let k = at; k < at + count && (chosen?.has(piece) ?? true); k++) {
       const q = fit.cubics.subarray(8 * k, 8 * k + 8);
       if (k === at) c.moveTo(q[0], q[1]);
       c.bezierCurveTo(q[2], q[3], q[4], q[5], q[6], q[7]);
     }
     at += count;
   });
+}
+
+/** What regularities are about, pieces of the chosen outline or whole outlines, as a broad line behind
+ * its own. @param {Scene} scene @param {CanvasRenderingContext2D} c
+ * @param {import("./types.js").Regularity[]} regularities */
+export function drawRegular(scene, c, regularities) {
+  if (!regularities.length) return;
+  const fits = scene.fits();
+  c.beginPath();
+  for (const one of regularities) {
+    if (one.noun === "outline") for (const place of one.pieces) addPieces(c, fits[place]);
+    else addPieces(c, fits[scene.outline], new Set(one.pieces));
+  }
   c.globalAlpha = 0.4;
   c.strokeStyle = colors().held;
   c.lineWidth = 10 / scene.view.scale;

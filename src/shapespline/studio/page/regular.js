@@ -14,7 +14,7 @@ export class Regular {
     this.app = app;
     /** @type {string[]} */
     this.names = [];
-    /** @type {number[]} pieces of the one that is pointed at */
+    /** @type {Regularity[]} those that are pointed at */
     this.marked = [];
     this.shown = "";
     element("regularities").addEventListener("change", (event) => {
@@ -37,7 +37,7 @@ export class Regular {
     const fit = app.fitter.fits[app.scene.outline];
     // A draft looks for none: what the fit before it had stays until the next whole one.
     if (fit?.draft && app.panel.isDrawn() && this.shown) return;
-    const found = fit?.regularities ?? [];
+    const found = [...(fit?.regularities ?? []), ...(app.fitter.done?.regularities ?? [])];
     const kept = app.store.now.regularities ?? this.names;
     const kinds = this.names.filter((name) => !kept.includes(name) || found.some((one) => one.name === name));
     element("regular").hidden = !kinds.length || !app.panel.isDrawn();
@@ -61,9 +61,9 @@ export class Regular {
     item.append(label);
     if (found.length) item.append(this.details(found));
     // What a kind is about is marked on the drawing while its switch has the focus, too.
-    box.addEventListener("focus", () => this.mark(found.flatMap((one) => one.pieces)));
+    box.addEventListener("focus", () => this.mark(found));
     box.addEventListener("blur", () => this.mark([]));
-    label.addEventListener("pointerenter", () => this.mark(found.flatMap((one) => one.pieces)));
+    label.addEventListener("pointerenter", () => this.mark(found));
     label.addEventListener("pointerleave", () => this.mark([]));
     return item;
   }
@@ -72,12 +72,13 @@ export class Regular {
   details(found) {
     const [details, summary, list] = [document.createElement("details"), document.createElement("summary"), document.createElement("ul")];
     summary.textContent = `${found.length} found, ${off(Math.max(...found.map((one) => Math.abs(one.off))))}`;
-    list.append(...found.map(({ text, pieces, off: by }) => {
+    list.append(...found.map((regularity) => {
+      const { noun, pieces, order, off: by } = regularity;
       const one = document.createElement("li");
       const named = pieces.slice(0, MOST_NAMED).map((piece) => piece + 1).join(", ");
-      const fold = text.match(/^\d+-fold /)?.[0] ?? "";
-      one.textContent = `${fold}${counted(pieces.length, "piece")}: ${named}${pieces.length > MOST_NAMED ? " …" : ""}; ${off(Math.abs(by))}`;
-      one.addEventListener("pointerenter", () => this.mark(pieces));
+      const fold = order > 1 ? `${order}-fold ` : "";
+      one.textContent = `${fold}${counted(pieces.length, noun)}: ${named}${pieces.length > MOST_NAMED ? " …" : ""}; ${off(Math.abs(by))}`;
+      one.addEventListener("pointerenter", () => this.mark([regularity]));
       one.addEventListener("pointerleave", () => this.mark([]));
       return one;
     }));
@@ -85,9 +86,9 @@ export class Regular {
     return details;
   }
 
-  /** @param {number[]} pieces */
-  mark(pieces) {
-    this.marked = pieces;
+  /** @param {Regularity[]} regularities */
+  mark(regularities) {
+    this.marked = regularities;
     this.app.scene.draw();
   }
 }

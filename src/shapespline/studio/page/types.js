@@ -15,9 +15,9 @@
  *   cubics: Float32Array, counts: Int32Array, nodes: Float32Array, turns: Int32Array,
  *   points: Int32Array, corners: Int32Array, polygon: Float32Array, polygons: Int32Array,
  *   samples: Float32Array, errors: Float32Array}} Fit
- * @typedef {{name: string, text: string, pieces: number[], off: number}} Regularity
+ * @typedef {{name: string, noun: string, pieces: number[], off: number, order: number}} Regularity
  * @typedef {{slot: string, draft: boolean, crossings: Float32Array, n_stored_points: number, n_bytes: number | null,
- *   n_kept: number, distance: number, seconds: number, generation: number}} Done
+ *   n_kept: number, distance: number, seconds: number, generation: number, regularities: Regularity[]}} Done
  * @typedef {{corners?: number[], through?: number[], end_tangents?: (number[] | null)[],
  *   moved?: number[][]}} Own
  * @typedef {{goal: string, tolerance: number, points: number, degree: number, corners: string,
