@@ -8,7 +8,8 @@
 
 Distances in pixels, over samples a twentieth of a pixel apart, both ways. Left out is what a
 picture cannot show: a corner within ``CORNER`` pixels, and tips and slits narrower than ``FINE``
-pixels. potrace, where it is installed, gets the same picture at its usual threshold.
+pixels. A true turn is kept where the curve has a break within ``KEPT`` pixels. potrace, where it is
+installed, gets the same picture at its usual threshold.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from checks.curves import Array
+    from numpy.typing import NDArray
 
 ROOT = Path(__file__).parent.parent
 LARGE = ROOT.parent / "shared" / "data"
@@ -42,10 +44,12 @@ PIXELS, FRAME = 256, 512
 SIZES = (64, 128, 256, 512, 1024, 2048)
 STEP = 0.05
 # Pixels around a corner of the true outline that do not count, and the turn that makes a corner.
-CORNER, TURN = 1.0, np.radians(20.0)
+CORNER, TURN = 1.0, 20.0
 # Pixels between two sides of ink or ground that are too near to be told apart.
 FINE = 1.0
 TOLERANCE = 0.35
+# True turns that a curve has to keep, the breaks that keep them (degrees), and how near (pixels).
+SHARP, BREAK, KEPT = 30.0, 10.0, 1.5
 
 
 class Truth(NamedTuple):
@@ -54,15 +58,28 @@ class Truth(NamedTuple):
     samples: Array
     too_fine: cKDTree
     n_points: int
+    corners: Array
 
 
 class Result(NamedTuple):
-    """Points stored, and distances to the truth away from corners, both ways."""
+    """Points stored, distances to the truth away from corners, both ways; corners kept."""
 
     n_points: int
     rms: float
     worst: float
     seconds: float
+    kept: NDArray[np.bool_]
+
+    @classmethod
+    def of(
+        cls, loops: Sequence[Sequence[Array]], n_points: int, seconds: float, outline: Truth
+    ) -> Result:
+        """Closed rows of Beziers against the true outline."""
+        samples = np.concatenate([bezier(piece, STEP) for loop in loops for piece in loop])
+        breaks = np.concatenate([_turns(loop, BREAK) for loop in loops])
+        near = cKDTree(np.vstack([breaks, (1e9, 1e9)]))
+        kept = near.query(outline.corners)[0] <= KEPT
+        return cls(n_points, *distances(samples, outline), seconds, kept)
 
 
 def bezier(points: Array, step: float) -> Array:
@@ -79,7 +96,7 @@ def truth(path: Path, pixels: int = PIXELS) -> Truth:
     """The outline of a .truth.json, scaled to a picture of so many pixels."""
     held = json.loads(path.read_text())
     scale = pixels / FRAME
-    loops, corners, n_points = [], [], 0
+    loops, corners, sharp, n_points = [], [], [], 0
     for contour in held["contours"]:
         segments = [
             np.array([(scale * x, pixels - scale * y) for x, y in segment]) for segment in contour
@@ -87,17 +104,27 @@ def truth(path: Path, pixels: int = PIXELS) -> Truth:
         segments = [s for s in segments if np.hypot(*np.diff(s, axis=0).T).sum() > 1e-9]
         n_points += sum(len(segment) - 1 for segment in segments)
         loops.append(np.concatenate([bezier(segment, STEP) for segment in segments]))
-        for before, after in zip(segments, segments[1:] + segments[:1], strict=True):
-            u, v = _tangent(before[::-1]) * -1, _tangent(after)
-            if abs(np.arctan2(u[0] * v[1] - u[1] * v[0], u @ v)) > TURN:
-                corners.append(after[0])
+        corners.append(_turns(segments, TURN))
+        sharp.append(_turns(segments, SHARP))
     samples, normals = np.concatenate(loops), np.concatenate([_normals(loop) for loop in loops])
     if len(loops) > 1:  # glyphs are drawn of parts that overlap: ink is on one side only
         aside = 0.05 * normals
         seen = _ink(samples + aside, loops) != _ink(samples - aside, loops)
         samples, normals = samples[seen], normals[seen]
     fine = _facing(samples, normals)
-    return Truth(samples, cKDTree(np.array([*corners, *fine, (1e9, 1e9)])), n_points)
+    turns = np.concatenate(sharp)
+    seen_turns = turns[cKDTree(samples).query(turns)[0] < 2 * STEP]
+    return Truth(samples, cKDTree(np.vstack([*corners, *fine, (1e9, 1e9)])), n_points, seen_turns)
+
+
+def _turns(loop: Sequence[Array], least: float) -> Array:
+    """Where a closed row of Beziers turns by more than so many degrees, shape (k, 2)."""
+    found = []
+    for before, after in zip(loop, [*loop[1:], loop[0]], strict=True):
+        u, v = _tangent(before[::-1]) * -1, _tangent(after)
+        if abs(np.degrees(np.arctan2(u[0] * v[1] - u[1] * v[0], u @ v))) > least:
+            found.append(after[0])
+    return np.array(found).reshape(-1, 2)
 
 
 def _normals(loop: Array) -> Array:
@@ -158,11 +185,9 @@ def ours(
         began = time.perf_counter()
         drawing = ss.fit_shape(ss.read(path), tolerance=tolerance)
         seconds = time.perf_counter() - began
-    samples = np.concatenate(
-        [bezier(piece, STEP) for fit in drawing for piece in fit.spline.beziers().points]
-    )
+    loops = [list(fit.spline.beziers().points) for fit in drawing]
     n_points = sum(fit.n_stored_points for fit in drawing)
-    return Result(n_points, *distances(samples, outline), seconds), drawing
+    return Result.of(loops, n_points, seconds, outline), drawing
 
 
 def rendered_back(drawing: ss.Drawing, picture: Image.Image) -> float:
@@ -205,10 +230,12 @@ def potrace(picture: Image.Image, outline: Truth) -> Result | None:
         check=True,
     )
     seconds = time.perf_counter() - began
-    samples, n_points = [], 0
+    loops, n_points = [], 0
     drawing = svgelements.SVG.parse(io.StringIO(done.stdout.decode()), reify=True, ppi=72)
     scale = picture.width / float(drawing.width)
-    for path in drawing.elements(lambda element: isinstance(element, svgelements.Path)):
+    paths = drawing.elements(lambda element: isinstance(element, svgelements.Path))
+    for path in (part for whole in paths for part in whole.as_subpaths()):
+        loop = []
         for segment in path:
             if isinstance(segment, svgelements.Line | svgelements.Close):
                 control = [segment.start, segment.end]
@@ -218,9 +245,10 @@ def potrace(picture: Image.Image, outline: Truth) -> Result | None:
                 continue
             points = np.array([(scale * p.x, picture.height - scale * p.y) for p in control])
             if np.ptp(points, axis=0).any():
-                n_points += len(points) - 1
-                samples.append(bezier(points, STEP))
-    return Result(n_points, *distances(np.concatenate(samples), outline), seconds)
+                loop.append(points)
+        n_points += sum(len(points) - 1 for points in loop)
+        loops.append(loop)
+    return Result.of(loops, n_points, seconds, outline)
 
 
 def pictures(pixels: int = PIXELS) -> list[tuple[Path, Image.Image]]:
@@ -255,6 +283,7 @@ def table(
     print("| picture | truth | ours: points | rms | worst | s | potrace: points | rms | worst |")
     print("|---|---|---|---|---|---|---|---|---|")
     ratios, misses, back = [], [], []
+    kept, lost = np.zeros(3, dtype=int), []
     for path, picture in pairs:
         image = picture
         if one_bit:
@@ -272,8 +301,11 @@ def table(
             f" | {found.worst:.2f} | {found.seconds:.2f} | {theirs} |",
             flush=True,
         )
+        kept += [len(found.kept), found.kept.sum(), 0 if other is None else other.kept.sum()]
         if other is not None:
             ratios.append([a / b for a, b in zip(found[:3], other[:3], strict=True)])
+            n_lost = int((other.kept & ~found.kept).sum())
+            lost += [f"{name} {n_lost}"] if n_lost else []
         reasons = [
             reason
             for reason, missed in (
@@ -291,6 +323,10 @@ def table(
             f"\nGeometric mean against potrace: points {mean[0]:.2f}, rms {mean[1]:.2f},"
             f" worst {mean[2]:.2f}"
         )
+    print(
+        f"\nTrue turns over {SHARP:g} degrees: {kept[0]}; kept: ours {kept[1]}, potrace {kept[2]};"
+        f" lost where potrace keeps them: {', '.join(lost) or 'none'}"
+    )
     print(
         f"\nRendered back: mean difference to the picture {np.mean(back):.2f} of 255,"
         f" largest {max(back):.2f}"

@@ -12,6 +12,7 @@ from shapespline.fitting.choose import DRAWN
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.verify import Candidate
 from shapespline.geometry import joined, two_sided_distance
+from shapespline.validation import median
 from shapespline.values import Contour, Piece
 
 if TYPE_CHECKING:
@@ -22,7 +23,8 @@ if TYPE_CHECKING:
     from shapespline.values import Regularity
 
 # Without a tolerance a drawn shape explains points no farther than so many bands, those of a
-# picture than so many times its accuracy; a corner that it blunts lies beyond them (DRA-06).
+# picture than so many times its accuracy; a corner that it blunts lies beyond them (DRA-06). More
+# than a pixel, and two at a corner, no picture is off.
 FARTHEST, FARTHEST_OF_PICTURE, FARTHEST_CORNER = 1.5, 25.0, 75.0
 
 
@@ -118,8 +120,9 @@ class DrawnPieces:
         contour = problem.contour
         farthest = beyond = FARTHEST * (self.shown.band if self.shown else problem.tolerance)
         if contour.level_line is not None and contour.accuracy is not None:
-            farthest = max(farthest, FARTHEST_OF_PICTURE * contour.accuracy)
-            beyond = max(beyond, FARTHEST_CORNER * contour.accuracy)
+            pixel = median(np.diff(contour.arc_length))
+            farthest = min(max(farthest, FARTHEST_OF_PICTURE * contour.accuracy), pixel)
+            beyond = min(max(beyond, FARTHEST_CORNER * contour.accuracy), 2.0 * pixel)
         found = two_sided_distance(joined(candidate.pieces, problem.request.style.degree), contour)
         return found.max_distance <= farthest and found.reverse_distance <= beyond
 

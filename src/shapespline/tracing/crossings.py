@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 BARELY = 0.01
 # Where pixels touch by a corner, what there is less of so many pixels around needs less to be one:
 # TRC-05.
-MINORITY, AROUND = 0.8, 2
+MINORITY, AROUND = 1.15, 2
 # The corners of a cell are numbered 1 (upper left), 2 (upper right), 4 (lower right), 8 (lower
 # left), its sides 0 (upper), 1 (right), 2 (lower), 3 (left). By the sum of the corners that are
 # ink: the side where the line comes in and the one where it goes out, ink on its left.

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from benchmarks.small_letters import drawn
 from tests.support.promise import checked
 from tests.support.rendering import coverage, dark, polygon
 
@@ -204,3 +205,13 @@ def test_features_below_the_tolerance_are_left_out_on_request_and_never_bent():
         ss.fit_curve(outline, closed=True, tolerance=0.5, character="fewest", simplify=True)
     with pytest.raises(ss.InvalidInputError, match="simplify acts within a tolerance"):
         ss.fit_curve(outline, closed=True, simplify=True)
+
+
+@pytest.mark.parametrize("letter", ["8", "B", "g"])
+def test_a_letter_of_one_bit_stays_within_a_pixel_of_its_picture(letter):
+    ink = drawn(letter, "DejaVuSans.ttf", 180) < 128
+    drawing = ss.fit_shape(ss.trace(np.where(ink, 0, 255).astype(np.uint8)))
+    # Half a pixel is the stair's own height; what is farther than a pixel is no stair.
+    for fit in drawing:
+        assert fit.max_distance <= 1.0
+        assert fit.rms_distance <= 0.5

@@ -45,9 +45,9 @@ ROUND = 2.0
 # points so many times, is none that was drawn, which takes long to find out (DRA-10).
 MANY_ELEMENTS, POINTS_EACH, MOST_ROUNDS = 40, 10, 30
 # A picture is taken for drawn so many times less exactly than others where that saves so many
-# parameters a pixel: some renderers draw curves as polygons. A free-form run counts once for so
-# many pixels (DRA-13).
-ROUGH, SAVED, LONG = 3.0, 0.03, 25.0
+# parameters a pixel: some renderers draw curves as polygons. Never by more than that part of a
+# pixel in the mean: not one of one bit. A free-form run counts once for so many pixels (DRA-13).
+ROUGH, ROUGHEST, SAVED, LONG = 3.0, 0.5, 0.03, 25.0
 # Data within so many steps of a node tell its direction.
 DIRECTION_STEPS = 4
 
@@ -115,8 +115,8 @@ def as_drawn(
 
 def _rough(seen: Observed, tolerance: float) -> Observed | None:
     """A picture's outline taken for less exact, where a tolerance leaves room for that."""
-    room = seen.pixel and ROUND * ROUGH * seen.largest_deviation <= tolerance
-    return seen.rougher(ROUGH) if room else None
+    room = min(tolerance, ROUGHEST * seen.pixel)
+    return seen.rougher(ROUGH) if ROUND * ROUGH * seen.largest_deviation <= room else None
 
 
 def _as_exact_as_drawn(seen: Observed, tolerance: float) -> tuple[Observed, Segments]:

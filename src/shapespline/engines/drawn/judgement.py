@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 # An element whose points are off by more deviations in the mean, or at most, is none (DRA-06).
 MEAN, LARGEST = 2.0, 6.0
+# The stairs of a picture of one bit are no random errors: none is larger than half a step or so
+# (DRA-14).
+BIT_MEAN, BIT_LARGEST = 1.3, 3.0
 # Of an outline that was drawn lines and arcs make up this part, and keep so many regularities for
 # each, tangency counted half, and not beside free-form runs (DRA-08).
 LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH = 0.2, 0.65, 0.5
@@ -41,7 +44,8 @@ def misfitting(model: Model, tolerance: float) -> list[int]:
         points, _ = model.counted(k)
         off = np.abs(off_by(model, k, points))
         mean = misfit.mean * model.seen.deviation / sigma
-        far = max(mean / MEAN, float(off.max()) / min(LARGEST * sigma, tolerance))
+        most = (BIT_MEAN, BIT_LARGEST) if model.seen.one_bit else (MEAN, LARGEST)
+        far = max(mean / most[0], float(off.max()) / min(most[1] * sigma, tolerance))
         if far > 1.0:
             bad.append((far, k))
     if bad:

@@ -22,6 +22,9 @@ BLUNTED, SYSTEMATIC = 1.0, 0.75
 # A picture's points are better than its accuracy where they scatter less: slow errors are so many
 # times what shows between neighbours, and no picture is better than this part (DRA-02).
 SLOW, BEST = 3.0, 0.3
+# Points less accurate than this part of their step are those of a picture of one bit: along its
+# stairs they scatter by nothing, and are off by half a pixel (DRA-14).
+ONE_BIT = 0.15
 # Points of a table are not known better than this part of the extent (DRA-02).
 LAST_DIGIT = 1e-5
 # Dense noisy points are averaged until their steps are longer than their noise; arc length would be
@@ -63,6 +66,8 @@ class Observed:
         if accuracy:
             shown = noise_level(Contour.trusted(points, closed))
             deviation = min(max(SLOW * shown, BEST * accuracy), accuracy) if shown else accuracy
+            if accuracy > ONE_BIT * step:
+                deviation = accuracy
             floor = SYSTEMATIC * deviation
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
             return cls(points, closed, deviation, accuracy, floor, step)
@@ -88,6 +93,11 @@ class Observed:
             largest_deviation=deviation,
             floor=SYSTEMATIC * deviation,
         )
+
+    @property
+    def one_bit(self) -> bool:
+        """Whether they are those of a picture without grey."""
+        return self.largest_deviation > ONE_BIT * self.pixel > 0.0
 
     @property
     def skip(self) -> float:

@@ -34,8 +34,9 @@ JOINTS = _kernels.JointPrices(
 )
 # Points on either side of a node that the second search tries, and of the first cut.
 NEAR, FREED = 3, 40
-# A piece is at least so long: in lengths that do not count, in steps (DRA-01).
-SHORTEST_BLUNTED, SHORTEST_STEPS = 2.2, 2.5
+# A piece is at least so long: in lengths that do not count, those of a picture of one bit, whose
+# stairs are straight for a while (DRA-14), in steps (DRA-01).
+SHORTEST_BLUNTED, SHORTEST_STAIRS, SHORTEST_STEPS = 2.2, 6.0, 2.5
 # Nodes of free-form runs are looked for at every so many-th part of the outline, and not closer
 # than so many points.
 FREE_PARTS, FREE_STEP = 160, 4
@@ -148,6 +149,7 @@ def _solved(
         weights = np.minimum(np.gradient(row.stations) / seen.pixel, 1.0)
     low, high = row.points.min(axis=0), row.points.max(axis=0)
     size = 0.5 * float((high - low).max())
+    shortest = SHORTEST_STAIRS if seen.one_bit else SHORTEST_BLUNTED
     parts, cost = _kernels.drawn_pieces(
         np.ascontiguousarray((row.points - 0.5 * (low + high)) / size),
         row.stations / size,
@@ -157,7 +159,7 @@ def _solved(
         _kernels.SegmentationSettings(
             deviation=seen.deviation / size,
             skip=seen.skip / size,
-            shortest=max(SHORTEST_BLUNTED * seen.skip, SHORTEST_STEPS * seen.step) / size,
+            shortest=max(shortest * seen.skip, SHORTEST_STEPS * seen.step) / size,
             price=PRICE,
             free_parameters=FREE_PARAMETERS,
             smooth_turn=float(np.tan(SMOOTH)),
