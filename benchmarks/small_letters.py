@@ -6,8 +6,9 @@
 
 The truth is the same word drawn eight times larger. A rendering shows it if its own pixels, cut
 at half grey and joined by sides or by corners, have those parts and holes and no others, each in
-its place; only such renderings count. potrace, where it is installed, gets the same pictures
-(specks of two pixels and less left out, as is its usual way).
+its place; only such renderings count, and outlines are judged in the same way. potrace, where it is
+installed, gets the same pictures (specks of two pixels and less left out, as is its usual way);
+of its outlines the numbers alone are compared.
 """
 
 from __future__ import annotations
@@ -92,22 +93,49 @@ def labels(ink: NDArray[np.bool_], by_corners: bool) -> tuple[NDArray[np.int32],
     return parts, np.maximum(ground[1:-1, 1:-1] - 1, 0)
 
 
-def shows(small: Rendering, large: Rendering) -> Topology | None:
-    """The topology of a word, if the pixels of its small rendering have it; else None."""
-    ink = ndimage.median_filter(large.pixels, 3) < 128
-    truth = labels(ink, by_corners=True)
-    places = np.indices(ink.shape).reshape(2, -1).T + 0.5
-    at = (places - large.begin) * (small.em / large.em) + small.begin
-    limits = np.array(small.pixels.shape) - 1
-    row, column = np.clip(np.floor(at).astype(int), 0, limits).T
-    for by_corners in (False, True):
-        found = labels(small.pixels < 128, by_corners)
-        if all(
-            _are_those(theirs.ravel(), own[row, column], int(own.max()))
-            for theirs, own in zip(truth, found, strict=True)
-        ):
-            return Topology(int(truth[0].max()), int(truth[1].max()))
-    return None
+class Word:
+    """A small rendering of a word, and its true parts and holes in a large one."""
+
+    def __init__(self, word: str, font: str, height: int) -> None:
+        self.small = rendered(word, font, height)
+        large = rendered(word, font, height * LARGER)
+        ink = ndimage.median_filter(large.pixels, 3) < 128
+        self._truth = labels(ink, by_corners=True)
+        places = np.indices(ink.shape).reshape(2, -1).T + 0.5
+        # Row and column in the small one of each pixel of the large one.
+        self._at = (places - large.begin) * (self.small.em / large.em) + self.small.begin
+
+    @property
+    def topology(self) -> Topology:
+        """How many parts and holes it has."""
+        return Topology(*(int(each.max()) for each in self._truth))
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether the pixels of the small rendering have all of them and no others."""
+        return any(self._are(*labels(self.small.pixels < 128, corner)) for corner in (False, True))
+
+    def is_found(self, shape: ss.Shape) -> bool:
+        """Whether outlines have all of them, each in its place, and no others."""
+        height, width = self.small.pixels.shape
+        parts, holes = (Image.new("I", (width * LARGER, height * LARGER)) for _ in range(2))
+        counts = [0, 0]
+        for index, contour in enumerate(shape):  # parents come first
+            hole = shape.is_hole(index)
+            counts[hole] += 1
+            polygon = [(LARGER * x - 0.5, LARGER * (height - y) - 0.5) for x, y in contour.points]
+            for which, plane in enumerate((parts, holes)):
+                ImageDraw.Draw(plane).polygon(polygon, fill=counts[hole] if which == hole else 0)
+        return tuple(counts) == self.topology and self._are(np.asarray(parts), np.asarray(holes))
+
+    def _are(self, *found: NDArray[np.int32]) -> bool:
+        """Whether parts and holes, by their numbers in a picture of the word, are the true ones."""
+        at = self._at * (found[0].shape[0] / self.small.pixels.shape[0])
+        row, column = np.clip(at.astype(int), 0, np.array(found[0].shape) - 1).T
+        return all(
+            _are_those(true.ravel(), own[row, column], int(own.max()))
+            for true, own in zip(self._truth, found, strict=True)
+        )
 
 
 def _are_those(true: NDArray[np.int32], found: NDArray[np.int32], n_found: int) -> bool:
@@ -154,14 +182,12 @@ def through_jpeg(image: NDArray[np.uint8], quality: int) -> NDArray[np.uint8]:
     return np.asarray(Image.open(held))
 
 
-def renderings() -> Iterator[tuple[str, Topology | None, NDArray[np.uint8]]]:
-    """Names, topologies where the pixels have them, and pictures."""
+def words() -> Iterator[tuple[str, Word]]:
+    """Names and words."""
     for word in WORDS:
         for font in FONTS:
             for height in HEIGHTS:
-                small = rendered(word, font, height)
-                truth = shows(small, rendered(word, font, height * LARGER))
-                yield f"{word} {font[:-4]} {height}", truth, small.pixels
+                yield f"{word} {font[:-4]} {height}", Word(word, font, height)
 
 
 def main() -> None:
@@ -171,19 +197,21 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, help="folder for pictures of what fails")
     chosen = parser.parse_args()
     shown, right, theirs, failures = 0, 0, 0, []
-    for name, truth, clean in renderings():
-        if truth is None:
+    for name, word in words():
+        if not word.is_shown:
             continue
-        image = clean if chosen.jpeg is None else through_jpeg(clean, chosen.jpeg)
+        truth, image = word.topology, word.small.pixels
+        if chosen.jpeg is not None:
+            image = through_jpeg(image, chosen.jpeg)
         shown += 1
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ss.PictureWarning)
-            found = of_shape(trace(image))
+            shape = trace(image)
         theirs += by_potrace(image) == truth
-        if found == truth:
+        if word.is_found(shape):
             right += 1
         else:
-            failures.append((name, truth, found))
+            failures.append((name, truth, of_shape(shape)))
             if chosen.output is not None:
                 Image.fromarray(image).save(chosen.output / f"{len(failures)}.png")
     print(f"{shown} of {len(WORDS) * len(FONTS) * len(HEIGHTS)} renderings show their topology")

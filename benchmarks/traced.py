@@ -247,7 +247,8 @@ def potrace(picture: Image.Image, outline: Truth) -> Result | None:
             if np.ptp(points, axis=0).any():
                 loop.append(points)
         n_points += sum(len(points) - 1 for points in loop)
-        loops.append(loop)
+        if loop:
+            loops.append(loop)
     return Result.of(loops, n_points, seconds, outline)
 
 
@@ -323,10 +324,11 @@ def table(
             f"\nGeometric mean against potrace: points {mean[0]:.2f}, rms {mean[1]:.2f},"
             f" worst {mean[2]:.2f}"
         )
-    print(
-        f"\nTrue turns over {SHARP:g} degrees: {kept[0]}; kept: ours {kept[1]}, potrace {kept[2]};"
-        f" lost where potrace keeps them: {', '.join(lost) or 'none'}"
-    )
+        print(
+            f"\nTrue turns over {SHARP:g} degrees that potrace keeps: {kept[2]} of {kept[0]};"
+            f" ours does not keep: {', '.join(lost) or 'none'}"
+        )
+    print(f"\nTrue turns over {SHARP:g} degrees that are kept: {kept[1]} of {kept[0]}")
     print(
         f"\nRendered back: mean difference to the picture {np.mean(back):.2f} of 255,"
         f" largest {max(back):.2f}"

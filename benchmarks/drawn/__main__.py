@@ -11,7 +11,7 @@ from __future__ import annotations
 import argparse
 
 from benchmarks.drawn.page import write_page
-from benchmarks.drawn.tables import pictures_tables, sampled_table
+from benchmarks.drawn.tables import pictures_tables, recovered_table, sampled_table
 
 
 def main() -> None:
@@ -19,7 +19,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--page", action="store_true", help="write docs/drawn.md and its pictures")
     asked = parser.parse_args()
-    pictures, points = pictures_tables(), sampled_table()
+    pictures, points = pictures_tables(), sampled_table() + "\n" + recovered_table()
     print("\n".join([*pictures.texts, points, *pictures.left_out]))
     if asked.page:
         write_page(pictures, points)

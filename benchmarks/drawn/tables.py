@@ -15,13 +15,18 @@ from benchmarks.drawn.tracers import CHARACTERS, PEERS, ours
 from benchmarks.drawn.truth import placed, sampled
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
 
     from benchmarks.drawn.renderers import Picture
     from benchmarks.drawn.truth import Outline
 
 SIZE, SIZES, TOLERANCES = 256, (128, 512), (None, 0.35)
 EXACT = "exact coverage"
+# Plates that are sampled, noise in per cent and numbers of points.
+PLATES = ("slot", "box rounded", "bracket", "star 5", "keyhole")
+SAMPLINGS = tuple((noise, n) for noise in (0.02, 0.1, 0.5) for n in (200, 1000))
 HEADS = {
     "straight": "straight %",
     "one piece": "one piece %",
@@ -144,6 +149,35 @@ def _said(tolerance: float | None) -> str:
     return "no tolerance" if tolerance is None else f"within {tolerance} pixels"
 
 
+def noisy_points(
+    name: str, random: np.random.Generator
+) -> Iterator[tuple[float, NDArray[np.float64], NDArray[np.float64], int]]:
+    """Noise in per cent, points, the drawing's own dense points and pieces."""
+    outline = rendered(name, SIZE)[0][0]
+    dense = sampled(outline, 0.02)
+    size = float(np.hypot(*np.ptp(dense, axis=0)))
+    for noise, n in SAMPLINGS:
+        points = ss.Contour(dense, closed=True).resampled(n).points
+        yield noise, points + random.normal(0, 0.01 * noise * size, (n, 2)), dense, len(outline)
+
+
+def recovered_table(draws: int = 10) -> str:
+    """How often the fit has the drawing's lines and arcs and nothing else."""
+    rows = {name: dict.fromkeys(SAMPLINGS, 0) for name in PLATES}
+    for name, right in rows.items():
+        for seed in range(draws):
+            for noise, points, _, count in noisy_points(name, np.random.default_rng(seed)):
+                pieces = ss.fit_curve(points, closed=True).pieces
+                same = len(pieces) == count and all(p.kind in ("line", "arc") for p in pieces)
+                right[noise, len(points)] += same
+    lines = [
+        f"Right of {draws} | " + " | ".join(f"{noise} %, {n}" for noise, n in SAMPLINGS),
+        "|".join(["---"] * (1 + len(SAMPLINGS))),
+        *(f"{name} | " + " | ".join(map(str, right.values())) for name, right in rows.items()),
+    ]
+    return "".join(f"| {line} |\n" for line in lines)
+
+
 def sampled_table() -> str:
     """Points with noise on plates, structure and distance to the truth."""
     from scipy.spatial import cKDTree
@@ -151,26 +185,20 @@ def sampled_table() -> str:
     lines = ["| | noise % | n | pieces of the drawing | fewest: pieces, H | drawn: pieces, H |"]
     lines.append("|---|---|---|---|---|---|")
     random = np.random.default_rng(5)
-    for name in ("slot", "box rounded", "bracket", "star 5", "keyhole", "pebble"):
-        outline = rendered(name, SIZE)[0][0]
-        dense = sampled(outline, 0.02)
-        size = float(np.hypot(*np.ptp(dense, axis=0)))
-        for noise in (0.02, 0.1, 0.5):
-            for n in (200, 1000):
-                contour = ss.Contour(dense, closed=True).resampled(n)
-                points = contour.points + random.normal(0, 0.01 * noise * size, (n, 2))
-                said = []
-                for character in CHARACTERS:
-                    fit = ss.fit_curve(points, closed=True, character=character)
-                    curve = fit.spline(np.linspace(0, 1, 20_001))
-                    far = max(
-                        cKDTree(dense).query(curve)[0].max(), cKDTree(curve).query(dense)[0].max()
-                    )
-                    kinds = [piece.kind for piece in fit.pieces]
-                    counts = (
-                        f"{kinds.count('line')} L {kinds.count('arc')} A"
-                        f" {len(kinds) - kinds.count('line') - kinds.count('arc')} C"
-                    )
-                    said.append(f"{counts}, {far:.2f}")
-                lines.append(f"| {name} | {noise} | {n} | {len(outline)} | {said[0]} | {said[1]} |")
+    for name in (*PLATES, "pebble"):
+        for noise, points, dense, count in noisy_points(name, random):
+            said = []
+            for character in CHARACTERS:
+                fit = ss.fit_curve(points, closed=True, character=character)
+                curve = fit.spline(np.linspace(0, 1, 20_001))
+                far = max(
+                    cKDTree(dense).query(curve)[0].max(), cKDTree(curve).query(dense)[0].max()
+                )
+                kinds = [piece.kind for piece in fit.pieces]
+                counts = (
+                    f"{kinds.count('line')} L {kinds.count('arc')} A"
+                    f" {len(kinds) - kinds.count('line') - kinds.count('arc')} C"
+                )
+                said.append(f"{counts}, {far:.2f}")
+            lines.append(f"| {name} | {noise} | {len(points)} | {count} | {said[0]} | {said[1]} |")
     return "\n".join(lines) + "\n"

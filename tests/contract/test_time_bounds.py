@@ -39,7 +39,7 @@ def test_a_long_search_is_heard_of_and_ends_at_its_limit():
     tolerance, heard = 0.0002 * contour.box_diagonal, [time.monotonic()]
     ss.fit_curve(contour, tolerance=tolerance, callback=lambda _: heard.append(time.monotonic()))
     gaps = [after - before for before, after in pairwise(heard)]
-    assert len(heard) > 20
+    assert len(heard) > 1 + 5 * (heard[-1] - heard[0])
     assert max(gaps) < SECONDS  # asked every 50 ms inside the kernel, repairs in between
     began = time.monotonic()
     fit = ss.fit_curve(contour, tolerance=tolerance, time_limit=0.3)

@@ -119,11 +119,14 @@ class DrawnPieces:
         """Whether the curve comes near all points."""
         contour = problem.contour
         farthest = beyond = FARTHEST * (self.shown.band if self.shown else problem.tolerance)
-        if contour.level_line is not None and contour.accuracy is not None:
-            pixel = median(np.diff(contour.arc_length))
+        pixel = median(np.diff(contour.arc_length))
+        if contour.level_line is None and len(candidate.pieces) > 1:
+            beyond = max(beyond, pixel)  # corners lie between points
+        elif contour.accuracy is not None:
             farthest = min(max(farthest, FARTHEST_OF_PICTURE * contour.accuracy), pixel)
             beyond = min(max(beyond, FARTHEST_CORNER * contour.accuracy), 2.0 * pixel)
-        found = two_sided_distance(joined(candidate.pieces, problem.request.style.degree), contour)
+        curve = joined(candidate.pieces, problem.request.style.degree)
+        found = two_sided_distance(curve, contour).beside(candidate.pieces)
         return found.max_distance <= farthest and found.reverse_distance <= beyond
 
 

@@ -9,7 +9,12 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from shapespline.engines.pieces import chords_found, drawn_straight, in_facets
+from shapespline.engines.pieces import (
+    TOLERANCE_FACTORS,
+    chords_found,
+    drawn_straight,
+    in_facets,
+)
 from shapespline.fitting.arcs import LinesAndArcs
 from shapespline.fitting.choose import ROUGH_PART
 from shapespline.fitting.drawn import DrawnPieces
@@ -128,12 +133,23 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
 
 def plan_pieces(problem: Problem, shortlist: Shortlist) -> Iterator[Strategy]:
     """Pieces alone: curves, lines where they are fewer, at last a line for every point."""
-    yield Pieces()
-    found = shortlist.among(PIECES)
-    count = found.fit.n_stored_points if found is not None and found.kept else inf
+    request, rough = problem.request, ROUGH_PART * len(problem.contour)
     # Where the caller knows the corners lines would make others.
-    few, no_lines = count <= ROUGH_PART * len(problem.contour), True
-    if not problem.request.style.names_corners:
+    may_be_lines = not request.style.names_corners
+    yield Pieces(TOLERANCE_FACTORS[:1])
+    found = shortlist.among(PIECES)
+    if found is None or not found.meets(request):
+        # Closer to rough data curves have more points, not fewer, and lines take over (FIT-22).
+        is_rough = found is not None and found.fit.n_stored_points > rough
+        if is_rough and may_be_lines and request.is_plain:
+            yield Lines(needed=True, fewer_than=inf)
+            if shortlist.kept:
+                return
+        yield Pieces(TOLERANCE_FACTORS[1:])
+        found = shortlist.among(PIECES)
+    count = found.fit.n_stored_points if found is not None and found.kept else inf
+    few, no_lines = count <= rough, True
+    if may_be_lines:
         chords = chords_found(problem.thinned)
         few = few and count <= chords.n_points
         no_lines = chords.follow_curve or count <= CHORDS_PART * chords.n_points

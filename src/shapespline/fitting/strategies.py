@@ -97,13 +97,19 @@ class OneSpline:
                 attempt = tried.send(verified.kept)
 
 
+@dataclass(frozen=True)
 class Pieces:
-    """Lines, Beziers and small splines (shortest path, then moves)."""
+    """Lines, Beziers and small splines (shortest path, then moves).
+
+    ``factors`` are the parts of the tolerance that searches aim at.
+    """
+
+    factors: tuple[float, ...] = TOLERANCE_FACTORS
 
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
-        """Curves of searches that aim at less and less, until one keeps the tolerance."""
+        """Curves of one search after another, until one keeps the tolerance."""
         request = problem.request
-        for factor in TOLERANCE_FACTORS:
+        for factor in self.factors:
             found = search_pieces(
                 problem.thinned,
                 factor,
@@ -114,8 +120,7 @@ class Pieces:
             )
             if found:
                 verified = yield _of_pieces(problem, found, PIECES)
-                met = not (verified.tangent_error and request.insists_on_tangents)
-                if verified.kept and met:
+                if verified.meets(request):
                     return
             if monitor.ended:
                 return
@@ -133,13 +138,18 @@ class Lines:
     fewer_than: float
 
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
-        """One curve, or none."""
-        lines, closed = search_lines(problem.thinned), problem.contour.closed
-        if not lines:  # a way back to its first point, all within the tolerance of it
-            return
-        drawn = n_points_of(lines) + (not closed) < self.fewer_than
-        if self.needed or (drawn and drawn_with_lines(lines, closed)):
-            yield _of_pieces(problem, lines, LINES)
+        """Curves of one search after another, until one keeps the tolerance."""
+        closed = problem.contour.closed
+        for factor in TOLERANCE_FACTORS:
+            lines = search_lines(problem.thinned, factor)
+            if not lines:  # a way back to its first point, all within the tolerance of it
+                return
+            drawn = n_points_of(lines) + (not closed) < self.fewer_than
+            if not (self.needed or (drawn and drawn_with_lines(lines, closed))):
+                return
+            verified = yield _of_pieces(problem, lines, LINES)
+            if verified.kept:
+                return
 
 
 class ThroughAll:

@@ -93,6 +93,10 @@ class Verified:
         """Whether the curve is fair as far as that was measured."""
         return self.candidate.fairness is None or self.candidate.fairness.kept
 
+    def meets(self, request: Request) -> bool:
+        """Whether it keeps the tolerance, and tangents that the request insists on."""
+        return self.kept and not (self.tangent_error and request.insists_on_tangents)
+
 
 def verify(candidate: Candidate, request: Request) -> Verified:
     """The candidate, measured against what was asked for.

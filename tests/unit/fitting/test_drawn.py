@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from benchmarks.drawn.tables import rendered
+from benchmarks.drawn.truth import sampled
 from benchmarks.small_letters import drawn
 from tests.support.promise import checked
 from tests.support.rendering import coverage, dark, polygon
@@ -207,7 +209,7 @@ def test_features_below_the_tolerance_are_left_out_on_request_and_never_bent():
         ss.fit_curve(outline, closed=True, simplify=True)
 
 
-@pytest.mark.parametrize("letter", ["8", "B", "g"])
+@pytest.mark.parametrize("letter", ["8", "B", "g", "R"])
 def test_a_letter_of_one_bit_stays_within_a_pixel_of_its_picture(letter):
     ink = drawn(letter, "DejaVuSans.ttf", 180) < 128
     drawing = ss.fit_shape(ss.trace(np.where(ink, 0, 255).astype(np.uint8)))
@@ -215,3 +217,34 @@ def test_a_letter_of_one_bit_stays_within_a_pixel_of_its_picture(letter):
     for fit in drawing:
         assert fit.max_distance <= 1.0
         assert fit.rms_distance <= 0.5
+
+
+def test_a_corner_between_two_points_is_where_the_sides_meet():
+    # Steps of 0.7 meet the corners of 10 by 6 nowhere but at the first point.
+    along = np.concatenate([np.arange(0.0, 32.0, 0.7)])
+    x = np.interp(along, [0, 10, 16, 26, 32], [0, 10, 10, 0, 0])
+    y = np.interp(along, [0, 10, 16, 26, 32], [0, 0, 6, 6, 0])
+    points = np.column_stack([x, y])
+    for tolerance, exact in ((None, True), (0.5, True), (0.001, False)):
+        fit = ss.fit_curve(points, closed=True, tolerance=tolerance)
+        assert fit.kept
+        assert {piece.kind for piece in fit.pieces} == {"line"}
+        nodes = np.array([piece.control_points[0] for piece in fit.pieces])
+        corners = np.array([(0, 0), (10, 0), (10, 6), (0, 6)])
+        away = np.hypot(*np.moveaxis(corners[:, None] - nodes, -1, 0)).min(axis=1)
+        if exact:  # else a corner farther from the polyline than the tolerance is cut off
+            assert len(fit.pieces) == 4
+            assert away.max() < 1e-12
+        else:
+            assert len(fit.pieces) == 7
+
+
+@pytest.mark.parametrize("seed", [0, 3])
+def test_a_few_noisy_points_are_no_edge_of_their_own(seed):
+    # By chance four points beside a node lie in a row, and no line beside them is far off.
+    dense = sampled(rendered("keyhole", 256)[0][0], 0.02)
+    points = ss.Contour(dense, closed=True).resampled(1000).points
+    deviation = 0.0002 * np.hypot(*np.ptp(dense, axis=0))
+    noise = np.random.default_rng(seed).normal(0, deviation, points.shape)
+    fit = ss.fit_curve(points + noise, closed=True)
+    assert sorted(piece.kind for piece in fit.pieces) == ["arc", "line", "line", "line"]

@@ -35,14 +35,21 @@ class DeviationSearch {
 
     Deviation run(const Knots &knots, std::span<const Vec2> points) {
         const auto pieces = bezier_pieces<Degree>(knots, points);
-        // A first look everywhere makes the lower bound good before anything is refined.
+        // A first look everywhere makes the lower bound good before anything is refined, but for
+        // pieces that lie on one segment: lines through all points.
+        std::vector<const Bezier<Degree> *> open;
         std::vector<Stop> stops;
         stops.reserve(pieces.size() * (kFirstLook + 1));
-        for (const Bezier<Degree> &piece : pieces)
-            for (int i = 0; i <= kFirstLook; ++i)
+        for (const Bezier<Degree> &piece : pieces) {
+            const Stop begin = look(piece, 0.0);
+            if (lies_along(begin.segment, piece)) continue;
+            open.push_back(&piece);
+            stops.push_back(begin);
+            for (int i = 1; i <= kFirstLook; ++i)
                 stops.push_back(look(piece, static_cast<double>(i) / kFirstLook));
-        for (std::size_t i = 0; i < pieces.size(); ++i)
-            refine(pieces[i], std::span(stops).subspan(i * (kFirstLook + 1), kFirstLook + 1), 0);
+        }
+        for (std::size_t i = 0; i < open.size(); ++i)
+            refine(*open[i], std::span(stops).subspan(i * (kFirstLook + 1), kFirstLook + 1), 0);
         result_.upper = std::max(result_.upper, result_.lower);
         return result_;
     }
@@ -69,6 +76,18 @@ class DeviationSearch {
             result_.parameter = piece.begin + s * (piece.end - piece.begin);
         }
         return {point, distance, near.segment};
+    }
+
+    // On a segment or on one of its neighbours: at a vertex each of two is the nearest.
+    bool lies_along(std::size_t segment, const Bezier<Degree> &piece) {
+        const std::size_t n = polyline_.n_segments();
+        for (const std::size_t near : {segment, (segment + 1) % n, (segment + n - 1) % n}) {
+            const double bound = bound_by(near, piece);
+            if (bound > floor_) continue;
+            result_.upper = std::max(result_.upper, bound);
+            return true;
+        }
+        return false;
     }
 
     double enough() const { return std::max(result_.lower * (1.0 + relative_gap_), floor_); }

@@ -37,6 +37,7 @@ class Polyline {
           }) {}
 
     Vec2 vertex(std::size_t i) const { return vertices_[i]; }
+    std::size_t n_segments() const { return vertices_.size() - 1; }
 
     double distance_sq(Vec2 p, std::size_t segment) const {
         return segment_distance_sq(p, vertices_[segment], vertices_[segment + 1]);

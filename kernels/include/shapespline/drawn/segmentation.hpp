@@ -143,41 +143,63 @@ class Segmentation {
     }
 
     void extend_primitives(std::size_t i) {
-        const double price = settings_.price;
         for (std::size_t j = i + 1; j < n_; ++j) {
             const double length = s_[j] - s_[i];
             if (!may_be_node_[j] || length < settings_.shortest) continue;
-            const auto [first, last] = counted(i, j);
-            const CentralMoments central(moments_.of(first, last));
-            const LineFit line = fit_line(central);
-            const double rest = uncounted(i, j, central.weight);
-            const double of_line = 0.5 * precision_ * line.sum_sq;
-            Vec2 along = line.direction;
-            if (dot(along, points_[j] - points_[i]) < 0.0) along = -1.0 * along;
-            offer(i, j, kLine, of_line + rest + 2.0 * price, along, along);
-            double least = of_line;
-            if (of_line > price && last - first + 1 >= kFewest) {
-                const CircleFit circle = fit_circle(central);
-                const double of_arc = 0.5 * precision_ * circle.sum_sq;
-                if (circle.radius > 0.0 && of_arc + price < of_line) {
-                    least = of_arc;
-                    const Vec2 inner = points_[(first + last) / 2];
-                    const double way =
-                        cross(inner - points_[first], points_[last] - inner) > 0.0 ? 1.0 : -1.0;
-                    const auto tangent = [&](Vec2 p) {
-                        const Vec2 out = p - circle.centre;
-                        return Vec2{-way * out.y, way * out.x};
-                    };
-                    offer(i, j, kArc, of_arc + rest + 3.0 * price, tangent(points_[i]),
-                          tangent(points_[j]));
-                }
-            }
-            if (least - 0.5 * central.weight > limit_ && length > 3.0 * settings_.shortest) break;
+            const Stretch all = counted(i, j);
+            double left = extend_primitive(i, j, all, 0.0);
+            if (left > settings_.price && between_points(i, j))
+                left = std::min(left, extend_primitive(i, j, {all.first + 1, all.last},
+                                                       settings_.price));
+            if (left > limit_ && length > 3.0 * settings_.shortest) break;
         }
+    }
+
+    // A corner may lie between two points, if no picture blunted it: the first of a piece is then
+    // the last of the piece before it alone (DRA-15).
+    bool between_points(std::size_t i, std::size_t j) const {
+        return !(settings_.skip > 0.0) && j > i + 2 && s_[i + 1] - s_[i] < settings_.shortest;
+    }
+
+    // A line and an arc through the points that count; what is left of the better one's misfit
+    // beyond noise.
+    double extend_primitive(std::size_t i, std::size_t j, Stretch counted, double more) {
+        const double price = settings_.price;
+        const auto [first, last] = counted;
+        const CentralMoments central(moments_.of(first, last));
+        const LineFit line = fit_line(central);
+        const double rest = uncounted(i, j, central.weight) + more;
+        const double of_line = 0.5 * precision_ * line.sum_sq;
+        Vec2 along = line.direction;
+        if (dot(along, points_[j] - points_[i]) < 0.0) along = -1.0 * along;
+        offer(i, j, kLine, of_line + rest + 2.0 * price, along, along);
+        double least = of_line;
+        if (of_line > price && last - first + 1 >= kFewest) {
+            const CircleFit circle = fit_circle(central);
+            const double of_arc = 0.5 * precision_ * circle.sum_sq;
+            if (circle.radius > 0.0 && of_arc + price < of_line) {
+                least = of_arc;
+                const Vec2 inner = points_[(first + last) / 2];
+                const double way =
+                    cross(inner - points_[first], points_[last] - inner) > 0.0 ? 1.0 : -1.0;
+                const auto tangent = [&](Vec2 p) {
+                    const Vec2 out = p - circle.centre;
+                    return Vec2{-way * out.y, way * out.x};
+                };
+                offer(i, j, kArc, of_arc + rest + 3.0 * price, tangent(points_[i]),
+                      tangent(points_[j]));
+            }
+        }
+        return least - 0.5 * central.weight;
     }
 
     void extend_free(std::size_t i) {
         const std::size_t first = near_[0].after[i];
+        extend_free(i, first, 0.0);
+        if (between_points(i, n_ - 1)) extend_free(i, first + 1, settings_.price);
+    }
+
+    void extend_free(std::size_t i, std::size_t first, double more) {
         const double unit = std::max(s_[n_ - 1] - s_[i], 1e-300) / 8.0;
         GrowingQuintic quintic(points_[first], s_[first], unit);
         std::size_t added = first;  // the next point to add
@@ -191,8 +213,8 @@ class Segmentation {
             const FreeForm found = quintic.solved(s_[i], s_[j]);
             const double weight = moments_.weight(first, last);
             const double misfit = 0.5 * precision_ * found.sum_sq;
-            offer(i, j, kFree, misfit + uncounted(i, j, weight) + settings_.free_parameters *
-                  settings_.price,
+            const double rest = uncounted(i, j, weight) + more;
+            offer(i, j, kFree, misfit + rest + settings_.free_parameters * settings_.price,
                   found.begin, found.end);
             hopeless = misfit - 0.5 * weight > limit_ ? hopeless + 1 : 0;
         }

@@ -80,6 +80,11 @@ def cut_off(
     turn = turn_at(model, k, m, node)
     if far <= NEAR_PART * tolerance or turn < SMOOTH_END:
         return node, node
+    if not model.seen.skip:  # no picture blunted it: no point happened to lie there
+        last, first = model.row.points[last_on(model, k)], model.row.points[first_on(model, m)]
+        share = 1.0 - CUT_PART * tolerance / far
+        ends = (node + share * (point - node) for point in (last, first))
+        return onto(model, k, next(ends)), onto(model, m, next(ends))
     back = (far - CUT_PART * tolerance) / float(np.sin(0.5 * turn))
     for _ in range(CUTS):
         before = onto(model, k, node - back * direction_at(model, k, node))

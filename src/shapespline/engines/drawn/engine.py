@@ -22,6 +22,7 @@ from shapespline.engines.drawn.judgement import (
     is_enough,
     misfitting,
     repeated,
+    without_few,
 )
 from shapespline.engines.drawn.model import Model, circle_of
 from shapespline.engines.drawn.observed import Observed
@@ -97,6 +98,9 @@ def as_drawn(
         model = Model.of(seen, row, model)
         if not is_enough(model):
             return None
+        if (fewer := without_few(model)) is not None:
+            row = fewer
+            continue
         bad = misfitting(model, tolerance)  # each alone first, which is soon done
         if not bad:
             found = Search(model, NAMES).run()

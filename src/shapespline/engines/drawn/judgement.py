@@ -17,6 +17,7 @@ from shapespline.engines.drawn.joints import turn_at
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
+    from shapespline.engines.drawn.segments import Segments
     from shapespline.values import Regularity
 
 # An element whose points are off by more deviations in the mean, or at most, is none (DRA-06).
@@ -29,6 +30,8 @@ BIT_MEAN, BIT_LARGEST = 1.3, 3.0
 LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH = 0.2, 0.65, 0.5
 # Between its nodes an element has at least this part of the length of its data.
 LEAST_LENGTH = 0.3
+# Measured points so few, and no farther from the elements beside them, in deviations (DRA-15).
+FEW, OFF_FEW = 8, 3.5
 # Before elements that their points contradict are left out so small a part of it is enough.
 HOPELESS = 0.7
 # A node is no farther from its data than so many steps and deviations: lines that are nearly
@@ -72,6 +75,36 @@ def misfitting(model: Model, tolerance: float) -> list[int]:
         if far > 1.0:
             bad.append((far, k))
     return [max(bad)[1]] if bad else []
+
+
+def without_few(model: Model) -> Segments | None:
+    """The row without an element of a few measured points that those beside it explain (DRA-15)."""
+    row, n, sigma = model.row, len(model.row.found), model.seen.deviation
+    closed = model.seen.closed
+    for k in model.at:
+        i, j, _ = row.found[k]
+        if model.seen.pixel or n < 3 or (not closed and k in (0, n - 1)):
+            continue
+        if j - i > FEW or data_length(model, k) > FEW * model.seen.step:
+            continue
+        before, after = (k - 1) % n, (k + 1) % n
+        if before not in model.at or after not in model.at:
+            continue
+        points = row.points[i + 1 : j + 1]
+        left = (off_by(model, before, points) / sigma) ** 2
+        right = (off_by(model, after, points) / sigma) ** 2
+        both = np.concatenate([[0.0], np.cumsum(left)]) + np.concatenate(
+            [np.cumsum(right[::-1])[::-1], [0.0]]
+        )
+        cut = int(np.argmin(both))
+        if max(left[:cut].max(initial=0.0), right[cut:].max(initial=0.0)) <= OFF_FEW**2:
+            row = row.turned(before) if closed else row
+            at = 1 if closed else k
+            first, few, last = row.found[at - 1 : at + 2]
+            node = few.begin + cut
+            found = (first._replace(end=node), last._replace(begin=node))
+            return row._replace(found=(*row.found[: at - 1], *found, *row.found[at + 2 :]))
+    return None
 
 
 def is_enough(model: Model) -> bool:

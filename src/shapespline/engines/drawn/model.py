@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from shapespline import _kernels
 from shapespline.engines.drawn.constraints import equations
-from shapespline.engines.drawn.segments import ARC, FREE, LINE
+from shapespline.engines.drawn.segments import ARC, FREE, LINE, PRICE, SHORTEST_STEPS
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.constraints import Constraint
@@ -29,6 +29,11 @@ IMPLIED = 1e-8
 LONGEST_STEP = 0.3
 # Short pieces count points nearer to their nodes, by this part.
 SHORT, NEARER = 8.0, 0.5
+# Leverage of the last of many points, times their number: of a parabola for an arc (DRA-15).
+END_LEVERAGE, LARGEST_LEVERAGE = {LINE: 4.0, ARC: 9.0}, 0.9
+
+# First point, number of steps and kind of a segment.
+Key: TypeAlias = tuple[int, int, int]
 
 
 class Misfit(NamedTuple):
@@ -69,21 +74,27 @@ class Model:
     at: dict[int, int] = field(default_factory=dict)
     ways: dict[int, float] = field(default_factory=dict)
     constraints: list[Constraint] = field(default_factory=list)
-    alone: dict[tuple[int, int, int], list[float]] = field(default_factory=dict)
+    alone: dict[Key, list[float]] = field(default_factory=dict)
+    beside: set[Key] = field(default_factory=set)
 
     @classmethod
     def of(cls, seen: Observed, row: Segments, before: Model | None = None) -> Model:
         """Each element fitted alone; what an earlier model of the same points knows is taken."""
-        model = cls(seen, row) if before is None else cls(seen, row, alone=before.alone)
+        model = cls(seen, row)
+        if before is not None:
+            model.alone, model.beside = before.alone, before.beside
         x: list[float] = []
         for k, (i, j, kind) in enumerate(row.found):
             if kind == FREE:
                 continue
             model.at[k] = len(x)
-            key = ((row.first + i) % len(seen.points), j - i, kind)
+            key = model._key(k)
             if key not in model.alone:
                 own = _line_of if kind == LINE else circle_of
                 model.alone[key] = own(*model.counted(k))
+                if model._begins_beside(k):
+                    model.beside.add(key)
+                    model.alone[key] = own(*model.counted(k))
             x += model.alone[key]
             if kind == ARC:
                 model.ways[k] = _way(row.points[i : j + 1], np.array(x[-3:-1]))
@@ -104,10 +115,34 @@ class Model:
         """Of the outline."""
         return float(np.ptp(self.row.points, axis=0).max())
 
+    def _key(self, k: int) -> Key:
+        """Which points a segment has and what it is, wherever the row begins."""
+        i, j, kind = self.row.found[k]
+        return ((self.row.first + i) % len(self.seen.points), j - i, kind)
+
+    def _begins_beside(self, k: int) -> bool:
+        """Whether the first point of a segment belongs to the one before it alone (DRA-15).
+
+        A corner may lie between two points, if no picture blunted it. Chi squared without that
+        point is less by the square of its residual over one minus its leverage.
+        """
+        (i, j, kind), s = self.row.found[k], self.row.stations
+        if self.seen.skip or j <= i + 2 or s[i + 1] - s[i] >= SHORTEST_STEPS * self.seen.step:
+            return False
+        x, (px, py) = self.alone[self._key(k)], self.row.points[i]
+        if kind == LINE:
+            off = np.cos(x[0]) * py - np.sin(x[0]) * px - x[1]
+        else:
+            off = np.hypot(px - x[0], py - x[1]) - x[2]
+        leverage = min(END_LEVERAGE[kind] / (j - i + 1), LARGEST_LEVERAGE)
+        return float(off / self.seen.deviation) ** 2 > 2.0 * PRICE * (1.0 - leverage)
+
     def span(self, k: int) -> tuple[int, int]:
         """First and last point that count for segment k."""
         i, j, kind = self.row.found[k]
         s, skip = self.row.stations, self.seen.skip
+        if not skip:
+            return i + (self._key(k) in self.beside), j
         if s[j] - s[i] < SHORT * skip:
             skip *= NEARER
         least = 3 if kind == LINE else 5

@@ -72,7 +72,8 @@ class Observed:
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
             return cls(points, closed, deviation, accuracy, floor, step)
         extent = float(np.ptp(points, axis=0).max())
-        deviation = max(noise_level(contour), LAST_DIGIT * extent)
+        # What they are said to be accurate to does not make lines of smooth points.
+        deviation = max(noise_level(Contour.trusted(points, closed)), LAST_DIGIT * extent)
         k = _averaged(points, closed, deviation)
         every = len(points) // (max(k, 1) * MOST_POINTS)
         if k == 1 and every > 1:

@@ -18,8 +18,9 @@ if TYPE_CHECKING:
 LINE, ARC, FREE = 0, 1, 2
 # Nats per parameter; smooth joints turn by less than this, radians (DRA-01).
 PRICE, SMOOTH = 4.0, 0.14
-# A free-form curve counts as so many parameters (DRA-01).
-FREE_PARAMETERS, ARC_PARAMETERS = 5.0, 3.0
+# A free-form curve counts as so many parameters (DRA-01), among independent points as more: its
+# twelve coefficients follow their noise (DRA-15).
+FREE_PARAMETERS, FREE_OF_POINTS, ARC_PARAMETERS = 5.0, 6.5, 3.0
 # Prices of joints in those of a parameter: what is seldom drawn costs, or smooth chains of arcs
 # follow anything (DRA-01).
 JOINTS = _kernels.JointPrices(
@@ -161,7 +162,7 @@ def _solved(
             skip=seen.skip / size,
             shortest=max(shortest * seen.skip, SHORTEST_STEPS * seen.step) / size,
             price=PRICE,
-            free_parameters=FREE_PARAMETERS,
+            free_parameters=FREE_PARAMETERS if seen.pixel else FREE_OF_POINTS,
             smooth_turn=float(np.tan(SMOOTH)),
             stride=max(FREE_STEP, round(len(order) / FREE_PARTS)),
             joints=JOINTS,
@@ -171,16 +172,14 @@ def _solved(
 
 
 def _merged(row: Segments, seen: Observed) -> Segments:
-    """Arcs too flat to tell as lines, lines that one line explains as one; of a picture only."""
-    if not seen.pixel:
-        return row
+    """Arcs too flat to tell as lines; of a picture lines that one line explains as one."""
     sigma, points = seen.deviation, row.points
     found = [
-        s._replace(kind=LINE) if s.kind == ARC and _is_flat(points, s, sigma) else s
+        s._replace(kind=LINE) if s.kind == ARC and _is_flat(points, s, seen) else s
         for s in row.found
     ]
     k = 0
-    while k + 1 < len(found):
+    while seen.pixel and k + 1 < len(found):
         a, b = found[k], found[k + 1]
         if a.kind == b.kind == LINE and _on_one_line(points[a.begin + 2 : b.end - 1], sigma):
             found[k : k + 2] = [Segment(a.begin, b.end, LINE)]
@@ -227,7 +226,7 @@ def _is_corner(row: Segments, at: int, closed: bool) -> bool:
     return abs(float(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b))) > CORNER
 
 
-def _is_flat(points: FloatArray, arc: Segment, sigma: float) -> bool:
+def _is_flat(points: FloatArray, arc: Segment, seen: Observed) -> bool:
     """Whether the sagitta of an arc is lost in the noise."""
     i, j, _ = arc
     if j - i > 12:
@@ -236,7 +235,8 @@ def _is_flat(points: FloatArray, arc: Segment, sigma: float) -> bool:
     size = float(np.hypot(*chord))
     middle = points[(i + j) // 2] - points[i]
     sagitta = abs(float(middle[0] * chord[1] - middle[1] * chord[0])) / max(size, 1e-300)
-    return sagitta < FLAT * sigma * min(1.0, size / (FLAT_CHORD * FLAT))
+    short = min(1.0, size / (FLAT_CHORD * FLAT)) if seen.pixel else 1.0
+    return sagitta < FLAT * seen.deviation * short
 
 
 def _on_one_line(points: FloatArray, sigma: float) -> bool:

@@ -9,7 +9,6 @@ import numpy as np
 
 from shapespline import _kernels
 from shapespline.analysis import FEWEST_STRAIGHT, LEAST_TURN, STRAIGHT_PART
-from shapespline.engines.pieces.engine import TOLERANCE_FACTORS
 from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, without_degenerate
 from shapespline.geometry import turn_between
 from shapespline.monitor import Monitor
@@ -48,12 +47,15 @@ def chords_found(problem: PiecesProblem) -> Chords:
     return Chords(len(chosen) - contour.closed, bool(n_low > LOW_TURN_PART * len(turns)))
 
 
-def search_lines(problem: PiecesProblem) -> tuple[Piece, ...]:
-    """Lines alone, every point a candidate node, in the unit and order of the problem."""
+def search_lines(problem: PiecesProblem, tolerance_factor: float) -> tuple[Piece, ...]:
+    """Lines alone, every point a candidate node, in the unit and order of the problem.
+
+    The search aims at ``tolerance_factor`` of the tolerance.
+    """
     constraints = problem.constraints._replace(tangents=(None, None))
     straight = problem._replace(constraints=constraints)
     return PiecesSolver(straight, 1, False, False, Monitor()).run(
-        TOLERANCE_FACTORS[0] * problem.tolerance, BUDGETS["fast"][0]._replace(stride=1)
+        tolerance_factor * problem.tolerance, BUDGETS["fast"][0]._replace(stride=1)
     )
 
 

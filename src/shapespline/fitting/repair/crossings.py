@@ -68,6 +68,9 @@ STEPS = (
 # These methods follow the points. A curve that was estimated from noisy points would follow noise.
 FOLLOWING = ("sections", "removal")
 CROSSES = "it crosses a curve where the data do not"
+# Curves of so many pieces that cross with so many of their points are given up for lines through
+# all of them at once: of scattered points each piece would be fitted again six times (FIT-21).
+MANY_PIECES, NEARLY_ALL = 400, 0.85
 
 
 def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
@@ -77,8 +80,6 @@ def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
     """
     if not request.is_plain or request.style.form == "spline":
         return told(fit)
-    if not self_crossings(_line_as_read(fit)):
-        return fit
     (found,) = uncrossed([fit], request, ask)
     return found
 
@@ -99,19 +100,24 @@ def uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], Fi
     """
     readings = [Reading.of(fit.contour) for fit in fits]
     read = [reading.fit(fit) for reading, fit in zip(readings, fits, strict=True)]
-    if not _new_crossings([fit.contour for fit in read], [_line(fit) for fit in read]):
+    pairs = _new_crossings([fit.contour for fit in read], [_line(fit) for fit in read])
+    if not pairs:
         return list(fits)
-    found = _uncrossed(read, request, ask)
+    found = _uncrossed(read, pairs, request, ask)
     return [
         reading.restored(*each) for reading, *each in zip(readings, fits, read, found, strict=True)
     ]
 
 
-def _uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], Fit]) -> list[Fit]:
-    """The same of fits in canonical order."""
-    refit = Refit(request, ask)
-    contours, lines = [fit.contour for fit in fits], [_line(fit) for fit in fits]
-    pairs = _new_crossings(contours, lines)
+def _uncrossed(
+    fits: Sequence[Fit],
+    pairs: set[tuple[int, int]],
+    request: Request,
+    ask: Callable[[Request], Fit],
+) -> list[Fit]:
+    """The same of fits in canonical order, of which ``pairs`` cross."""
+    refit, contours = Refit(request, ask), [fit.contour for fit in fits]
+    fits, lines, pairs = _given_up(fits, pairs, request)
     sides = Sides.of([fit.contour for fit in fits])
     begun: dict[int, PieceAssignment] = {}
     rows: dict[int, PieceAssignment] = {}
@@ -137,8 +143,31 @@ def _uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], F
         if row is not begun[owner]:
             result[owner] = _no_larger_than_data(verified_row(row))
         lines[owner] = _line(result[owner])
-    still = {owner for pair in _new_crossings(contours, lines) for owner in pair}
+    if best:
+        pairs = _new_crossings(contours, lines)
+    still = {owner for pair in pairs for owner in pair}
     return [_told(fit) if owner in still else fit for owner, fit in enumerate(result)]
+
+
+def _given_up(
+    fits: Sequence[Fit], pairs: set[tuple[int, int]], request: Request
+) -> tuple[list[Fit], list[FloatArray], set[tuple[int, int]]]:
+    """Fits, their lines and the pairs that still cross, lines through all points for some."""
+    hopeless = {
+        owner
+        for owner, fit in enumerate(fits)
+        if (owner, owner) in pairs and len(fit.sections) >= MANY_PIECES
+    }
+    if request.style.smoothness == 2:
+        hopeless.clear()
+    found = [
+        _no_larger_than_data(fit, NEARLY_ALL) if owner in hopeless else fit
+        for owner, fit in enumerate(fits)
+    ]
+    lines = [_line(fit) for fit in found]
+    if all(a is b for a, b in zip(fits, found, strict=True)):
+        return found, lines, pairs
+    return found, lines, _new_crossings([fit.contour for fit in found], lines)
 
 
 def _line_as_read(fit: Fit) -> FloatArray:
@@ -151,10 +180,10 @@ def _line(fit: Fit) -> FloatArray:
     return line_of(fit.spline, fit.tolerance, fit.corners)
 
 
-def _no_larger_than_data(fit: Fit) -> Fit:
-    """The fit, or lines through all points where these are fewer."""
+def _no_larger_than_data(fit: Fit, part: float = 1.0) -> Fit:
+    """The fit, or lines through all points where it has more than this part of theirs."""
     lines = through_all(fit.contour)
-    if fit.n_stored_points <= len(lines) + (not fit.closed):
+    if fit.n_stored_points <= part * (len(lines) + (not fit.closed)):
         return fit
     spline = joined(lines, fit.degree)
     return verified_fit(

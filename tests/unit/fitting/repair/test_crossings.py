@@ -102,3 +102,14 @@ def test_what_comes_apart_stores_no_more_points_than_the_data():
     assert smaller.kept
     assert smaller.n_stored_points == len(contour)
     assert _no_larger_than_data(smaller) is smaller
+
+
+def test_a_walk_that_is_nearly_all_corners_is_joined_by_lines_at_once():
+    # It crosses itself everywhere: each of hundreds of pieces would be fitted again and again.
+    points = np.cumsum(np.random.default_rng(2).normal(0, 1, (500, 2)), axis=0)
+    asked = []
+    fit = ss.fit_curve(points, closed=False, tolerance="0.1%", callback=asked.append)
+    line = polyline_of(fit.pieces, fit.tolerance / 10)
+    assert fit.kept
+    assert self_crossings(line) <= self_crossings(fit.contour.polyline)
+    assert len(asked) < 20
