@@ -51,7 +51,7 @@ NEAR_CUSP = 0.02
 TOUCHING = 1e-9
 # Radii below this part of the tolerance are counted.
 SMALL_RADIUS = 0.01
-ALLOWED = (ss.DroppedPointsWarning, ss.ShuffledPointsWarning)
+ALLOWED = (ss.DroppedPointsWarning, ss.ShuffledPointsWarning, ss.SparsePointsWarning)
 
 
 def fitted(points: Array, options: dict[str, Any]) -> ss.Fit:

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         ShapesplineError,
         ShuffledPointsWarning,
         SkippedContentWarning,
+        SparsePointsWarning,
         UnknownFormatError,
     )
     from shapespline.fitting import Batch, fit_curve, fit_large, fit_many, fit_shape, optimize
@@ -75,6 +76,7 @@ _HOME = {
     "Shape": "values",
     "ShapesplineError": "errors",
     "ShuffledPointsWarning": "errors",
+    "SparsePointsWarning": "errors",
     "SkippedContentWarning": "errors",
     "Status": "values",
     "UnknownFormatError": "errors",
@@ -122,6 +124,7 @@ __all__ = [
     "ShapesplineError",
     "ShuffledPointsWarning",
     "SkippedContentWarning",
+    "SparsePointsWarning",
     "Status",
     "UnknownFormatError",
     "ViewBox",

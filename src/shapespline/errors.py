@@ -53,6 +53,10 @@ class ShuffledPointsWarning(UserWarning):
     """Points are hardly in the order of an outline."""
 
 
+class SparsePointsWarning(UserWarning):
+    """Points are so sparse that a smooth curve through them leaves the tolerance between them."""
+
+
 class ArcsAsCurvesWarning(UserWarning):
     """A format that knows no arcs was written: curves stand for them."""
 

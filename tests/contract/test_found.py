@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from benchmarks.attack.judge import NEAR_CUSP
@@ -12,6 +14,7 @@ from tests.support.shapes import on_circle
 import shapespline as ss
 from checks import bits, distance_to_curve, hooks, polyline_of, self_crossings, speed_ratio
 from shapespline.engines.pieces import PiecesProblem, chords_found
+from shapespline.engines.spline.fairness import MORE_TURN
 from shapespline.values import periodic_knots
 
 pytestmark = pytest.mark.filterwarnings("ignore::shapespline.DroppedPointsWarning")
@@ -65,7 +68,8 @@ def test_neighbours_that_only_rounding_parts_are_no_error(form, closed):
 def test_a_spiral_too_rough_for_one_spline_is_no_error():
     t = np.linspace(0.5, 12 * np.pi, 176)
     spiral = np.column_stack([t * np.cos(t), t * np.sin(t)])
-    assert ss.fit_curve(spiral, closed=False, tolerance="0.1%", effort="fast").kept
+    with pytest.warns(ss.SparsePointsWarning):
+        assert ss.fit_curve(spiral, closed=False, tolerance="0.1%", effort="fast").kept
 
 
 def test_a_tolerance_beyond_the_size_is_no_error():
@@ -283,3 +287,31 @@ def test_no_piece_of_noisy_points_nearly_stands_still(outline):
     # Two pieces did before.
     fit = ss.fit_curve(outline("loop500_n1_open"), tolerance="0.5%")
     assert speed_ratio(fit.pieces) >= NEAR_CUSP
+
+
+def turned_wrongly(fit):
+    """How far, radians, the curve of a convex outline that runs to the left turns right."""
+    chords = np.diff(fit.curve(np.linspace(0, 1, 20_011)), axis=0)
+    chords = chords[np.hypot(*chords.T) > 0]
+    (ax, ay), (bx, by) = chords[:-1].T, chords[1:].T
+    turns = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
+    return -turns[turns < 0].sum()
+
+
+@pytest.mark.parametrize(
+    ("n", "scale", "tolerance"), [(60, (5.0, 1.0), "0.02%"), (30, (1.2, 0.8), "0.1%")]
+)
+def test_sparse_points_of_a_smooth_outline_make_no_waves(n, scale, tolerance):
+    t = 2 * np.pi * np.arange(n) / n
+    points = np.column_stack([np.cos(t), np.sin(t)]) * scale
+    with pytest.warns(ss.SparsePointsWarning, match="tolerance=") as caught:
+        fit = ss.fit_curve(points, closed=True, tolerance=tolerance)
+    assert fit.kept
+    assert turned_wrongly(fit) < 0.5 * MORE_TURN * 2 * np.pi  # to and fro
+    # What the sentence says is true.
+    enough = float(re.search(r"or tolerance=(\S+) for", str(caught[0].message))[1])
+    smooth = ss.fit_curve(points, closed=True, tolerance=enough)
+    assert smooth.kept
+    assert not len(smooth.corners)
+    assert turned_wrongly(smooth) == pytest.approx(0.0, abs=1e-6)
+    assert smooth.n_stored_points < 10

@@ -3,7 +3,7 @@
 from shapespline.analysis.corners import LEAST_TURN, LOW_TURN, find_corners
 from shapespline.analysis.cpda import Cpda, bending, check_window, chord_to_point, local_maxima
 from shapespline.analysis.mirror import Mirror, find_mirror
-from shapespline.analysis.noise import noise_level
+from shapespline.analysis.noise import largest_bulge, noise_level
 from shapespline.analysis.normalization import (
     FEW_LEFT,
     LONGEST_CHORD,
@@ -61,6 +61,7 @@ __all__ = [
     "find_outliers",
     "has_straight_runs",
     "joint",
+    "largest_bulge",
     "local_maxima",
     "looks_shuffled",
     "noise_level",

@@ -1,4 +1,4 @@
-"""The noise of a contour: what local cubics cannot follow across the outline.
+"""What neighbours tell by local cubics: noise across the outline, and how it bulges between them.
 
 The cubics are those of Savitzky and Golay (1964); their residuals are read by a median, whose scale
 is that of chi-squared.
@@ -21,6 +21,8 @@ HALF_WINDOW = 3
 MOST_WINDOWS = 5_000
 # Of fewer points nobody can tell noise from bends (ANA-01).
 FEWEST_POINTS = 64
+# Fewer vertices that turn evenly may be a polygon's.
+FEWEST_OF_CURVE = 24
 # A cubic fitted to a window: its slope in the middle, and what is left of every point.
 _POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
 _FIT = np.linalg.pinv(_POWERS)
@@ -63,3 +65,28 @@ def noise_level(contour: Contour) -> float:
     speed_sq = np.maximum(x[:, 0] ** 2 + y[:, 0] ** 2, np.finfo(float).tiny)
     level_sq = median((across**2).sum(axis=1) / speed_sq) / _CHI_SQUARED_MEDIAN
     return max(known, float(np.sqrt(level_sq)))
+
+
+def largest_bulge(contour: Contour) -> float:
+    """How far the smooth curve through points lies off their chords, at most; data units.
+
+    Cubics through four neighbours tell it. 0 where the points are no smooth curve's: where their
+    fourth differences, which corners and noise make large, exceed what bulges.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> t = 2 * np.pi * np.arange(60) / 60
+    >>> circle = Contour(np.column_stack([np.cos(t), np.sin(t)]), closed=True)
+    >>> bool(np.isclose(largest_bulge(circle), 1 - np.cos(np.pi / 60), rtol=0.01))
+    True
+    """
+    points = contour.points - contour.points[0]
+    if len(points) < FEWEST_OF_CURVE:
+        return 0.0
+    if contour.closed:
+        points = np.concatenate([points[-2:], points, points[:2]])
+    a, b, c, d, e = (points[k : len(points) - 4 + k] for k in range(5))
+    bulge = float(np.hypot(*(b + c - a - d).T).max()) / 16
+    rest = float(np.hypot(*(a - 4 * b + 6 * c - 4 * d + e).T).max()) / 6
+    return bulge if rest < bulge else 0.0

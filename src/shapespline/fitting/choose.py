@@ -24,7 +24,7 @@ class Shortlist:
     2. tangents that were asked for are met;
     3. it is as it was drawn, where that was asked for;
     4. the curve is fair (even knots, no near-cusp, no crossing that the data have not), where it
-       stands in for corners of the data;
+       stands in for corners of the data; it does not wave where the data do not, wherever;
     5. no corners where the data have none, if one smooth spline follows them;
     6. the fewest stored points; of curves that miss the tolerance the nearest;
     7. the simpler structure: one spline, a symmetric one, pieces, lines, lines through all points;
@@ -75,7 +75,7 @@ class Shortlist:
             not verified.kept,
             verified.tangent_error > 0,
             candidate.rank != DRAWN,
-            instead and not verified.fair,
+            (instead and not verified.fair) or verified.waves,
             self._makes_corners(verified),
             verified.fit.n_stored_points if verified.kept else verified.fit.hausdorff_distance,
             candidate.rank,

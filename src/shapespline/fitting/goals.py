@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from shapespline.analysis import largest_bulge
 from shapespline.engines.drawn import NAMES
+from shapespline.errors import SparsePointsWarning, caller_level
 from shapespline.fitting.settings import DEFAULT_METHOD
 
 if TYPE_CHECKING:
     from shapespline.typing import Character, CornerChoice, Form, IntArray, Knots
+    from shapespline.values import Contour
+
+# A smooth curve may pass its points by a tolerance on one side, their chords by one on the other.
+SPARSE = 2.0
 
 
 @dataclass(frozen=True)
@@ -17,6 +24,20 @@ class Within:
     """The fewest stored points whose curve keeps a tolerance, both ways; data units."""
 
     tolerance: float
+
+    def warn_of_sparse(self, contour: Contour) -> None:
+        """Say so if a smooth curve through the points does not keep it between them."""
+        bulge = largest_bulge(contour)
+        if bulge <= SPARSE * self.tolerance:
+            return
+        warnings.warn(
+            "the points are sparse for their tolerance: a smooth curve through them lies up to"
+            f" {bulge:.3g} off the chords between them, and tolerance={self.tolerance:.3g} is kept"
+            " between points, too, by corners if need be; give more points or"
+            f" tolerance={1.1 * bulge:.2g} for a smooth curve",
+            SparsePointsWarning,
+            stacklevel=caller_level(),
+        )
 
 
 @dataclass(frozen=True)

@@ -114,7 +114,7 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
             return
     if request.is_plain and problem.looks_smooth:
         yield OneSpline(ROUGH_PART * len(problem.contour))
-        if len(shortlist) and shortlist.follows(shortlist.best):
+        if len(shortlist) and shortlist.follows(best := shortlist.best) and not best.waves:
             return
     if not (request.style.free or request.constraints.anything) and (
         request.symmetric or request.effort != "fast"

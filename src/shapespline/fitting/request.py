@@ -125,6 +125,8 @@ class Request:
             effort=settings.effort,
         )
         request = request.without_outliers() if settings.outliers else request
+        if isinstance(request.goal, Within) and not request.style.names_corners:
+            request.goal.warn_of_sparse(request.contour)
         if isinstance(settings.tolerance, str) and len(request.left_out):
             request = replace(request, goal=_goal(settings, request.contour))
         return request.checked()

@@ -93,6 +93,11 @@ class Verified:
         """Whether the curve is fair as far as that was measured."""
         return self.candidate.fairness is None or self.candidate.fairness.kept
 
+    @property
+    def waves(self) -> bool:
+        """Whether one spline turns to and fro where its data do not."""
+        return self.candidate.fairness is not None and self.candidate.fairness.waves
+
     def meets(self, request: Request) -> bool:
         """Whether it keeps the tolerance, and tangents that the request insists on."""
         return self.kept and not (self.tangent_error and request.insists_on_tangents)

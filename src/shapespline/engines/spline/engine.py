@@ -15,7 +15,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.engines.spline.fairness import INTERVAL_RATIO, SPEED_RATIO, Fairness, fairness_of
+from shapespline.engines.spline.fairness import (
+    INTERVAL_RATIO,
+    SPEED_RATIO,
+    Fairness,
+    fairness_of,
+    turning,
+)
 from shapespline.values import BSplineCurve, on_grid, periodic_knots
 
 if TYPE_CHECKING:
@@ -163,6 +169,7 @@ def attempts(
     """
     thinned = normalized.thinned(tolerance * normalized.scale, np.empty(0, dtype=np.int64))
     part, start = 1.0, 0
+    data_turning = turning(np.diff(contour.polyline, axis=0), closed=contour.closed) or np.inf
     limit = max(HOPELESS_RATIO * fewer_than, HOPELESS_POINTS)
     most = int(min(limit, NO_LIMIT))
     for _ in range(ATTEMPTS):
@@ -172,7 +179,7 @@ def attempts(
             return
         curve = _exported(search, thinned, contour, degree)
         counts = search.counts()
-        fairness = fairness_of(curve, thinned.contour, counts["hooks"])
+        fairness = fairness_of(curve, thinned.contour, counts["hooks"], data_turning)
         kept = yield SplineAttempt(curve, fairness, counts)
         if monitor.ended or (kept and (fairness.kept or not fair)):
             return

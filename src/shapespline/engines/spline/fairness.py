@@ -1,4 +1,4 @@
-"""Fairness of a single spline: even knots, no near-cusp, no crossing or hook of its own."""
+"""Fairness of a single spline: even knots, no near-cusp, no crossing, hook or wave of its own."""
 
 from __future__ import annotations
 
@@ -9,10 +9,13 @@ import numpy as np
 from shapespline import _kernels
 
 if TYPE_CHECKING:
+    from shapespline.typing import FloatArray
     from shapespline.values import BSplineCurve, Contour
 
 # Largest over smallest knot interval, slowest over median speed.
 INTERVAL_RATIO, SPEED_RATIO = 1000.0, 0.05
+# A curve that turns, left and right, so much more than its data waves about their chords (SPL-13).
+MORE_TURN = 0.1
 
 
 class Fairness(NamedTuple):
@@ -21,7 +24,9 @@ class Fairness(NamedTuple):
     ``interval_ratio`` is the largest over the smallest non-zero knot interval, ``speed_ratio`` the
     slowest speed over its median (both with respect to the parameter, knots of multiplicity >=
     degree left out), ``n_crossings`` and ``n_data_crossings`` count self-crossings of curve and
-    data polyline, ``n_hooks`` the places where the curve turns back and the data do not.
+    data polyline, ``n_hooks`` the places where the curve turns back and the data do not;
+    ``more_turn`` is how much farther the curve turns, left and right, than its data, in parts of
+    what they turn.
     """
 
     interval_ratio: float
@@ -29,6 +34,12 @@ class Fairness(NamedTuple):
     n_crossings: int
     n_data_crossings: int
     n_hooks: int = 0
+    more_turn: float = 0.0
+
+    @property
+    def waves(self) -> bool:
+        """Whether the curve turns to and fro where its data do not."""
+        return self.more_turn > MORE_TURN
 
     @property
     def kept(self) -> bool:
@@ -41,7 +52,17 @@ class Fairness(NamedTuple):
         )
 
 
-def fairness_of(curve: BSplineCurve, contour: Contour, n_hooks: int = 0) -> Fairness:
+def turning(directions: FloatArray, *, closed: bool) -> float:
+    """How far a way turns, left and right, that runs along these directions one after another."""
+    if closed:
+        directions = np.concatenate([directions, directions[:1]])
+    (ax, ay), (bx, by) = directions[:-1].T, directions[1:].T
+    return float(np.abs(np.arctan2(ax * by - ay * bx, ax * bx + ay * by)).sum())
+
+
+def fairness_of(
+    curve: BSplineCurve, contour: Contour, n_hooks: int = 0, data_turning: float = np.inf
+) -> Fairness:
     """How fair a curve is, from dense samples of every span; its hooks the search has counted.
 
     Notes
@@ -73,4 +94,5 @@ def fairness_of(curve: BSplineCurve, contour: Contour, n_hooks: int = 0) -> Fair
         _kernels.count_crossings(np.ascontiguousarray(vertices)),
         _kernels.count_crossings(np.ascontiguousarray(contour.polyline)),
         n_hooks,
+        turning(velocity, closed=contour.closed) / data_turning - 1.0,
     )
