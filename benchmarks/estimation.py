@@ -2,6 +2,7 @@
 
     python -m benchmarks.estimation               the loop over ten seeds, and ten outlines
     python -m benchmarks.estimation --every 3     every third outline whose truth is known
+    python -m benchmarks.estimation --shapes      eight shapes, few and many points, 0.1 to 2 %
 
 The truth is the clean outline; noise of so many per cent of the box diagonal, which is 100, is
 added to each coordinate. splprep is given the noise and the best of its smoothing factors in
@@ -26,12 +27,15 @@ from shapespline.analysis.noise import noise_level
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from numpy.typing import NDArray
+
 PERCENTS = (0.2, 1.0)
 SEEDS = range(10)
 LOOP = "loop500_open"
 # splprep's s over what the noise alone leaves.
 FACTORS = np.linspace(0.5, 1.5, 11)
 TRUTH_POINTS = 1500
+SIZES, SHAPE_PERCENTS = (100, 500, 5000), (0.1, 0.5, 2.0)
 LONGEST = 2500
 
 
@@ -145,6 +149,68 @@ def corpus(every: int | None) -> None:
     )
 
 
+def eight_shapes() -> dict[str, ss.Contour]:
+    """Dense points of shapes that everybody knows, some with corners, some open."""
+    t = np.linspace(0, 2 * np.pi, 8000, endpoint=False)
+    c, s = np.cos(t), np.sin(t)
+    x = 0.5 * (1 + c)  # the wing's chord, from its tail round its nose
+    thick = 0.6 * (0.2969 * np.sqrt(x) - 0.126 * x - 0.3516 * x**2 + 0.2843 * x**3 - 0.1036 * x**4)
+    wave = 1 + 0.15 * np.sin(5 * t) + 0.08 * np.cos(11 * t)
+    along = np.linspace(0, 1, 8000)
+    square = rounded_square(t)
+    leg = np.column_stack([np.minimum(3 * along, 1), np.maximum(3 * along - 1, 0)])
+    loose = np.column_stack([8 * along, np.sin(9 * along) * np.exp(-along)])
+    spiral = (1 + 2 * along)[:, None] * np.column_stack([np.cos(9 * along), np.sin(9 * along)])
+    outlines = {
+        "circle": (np.column_stack([c, s]), True),
+        "ellipse 5:1": (np.column_stack([5 * c, s]), True),
+        "airfoil": (np.column_stack([x, np.sign(s) * thick]), True),
+        "wiggly": (wave[:, None] * np.column_stack([c, s]), True),
+        "rounded square": (square, True),
+        "L, open": (leg, False),
+        "damped wave, open": (loose, False),
+        "spiral, open": (spiral, False),
+    }
+    return {name: scaled(ss.Contour(points, closed)) for name, (points, closed) in outlines.items()}
+
+
+def rounded_square(t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A square with round corners of a quarter of its side."""
+    inner = [(1, 1), (-1, 1), (-1, -1), (1, -1)]
+    arcs = [
+        np.column_stack([x + np.cos(a), y + np.sin(a)])
+        for k, (x, y) in enumerate(inner)
+        for a in [k * np.pi / 2 + t[::4] / 4]
+    ]
+    return np.asarray(ss.Contour(np.concatenate(arcs), closed=True).resampled(len(t)).points)
+
+
+def shapes() -> None:
+    """Eight shapes, geometric means over three seeds."""
+    print("## Eight shapes: rms to the truth over that of splprep in hindsight (points stored)\n")
+    print("| shape | noise | " + " | ".join(f"{n} points" for n in SIZES) + " |")
+    print("|---|---|" + "---|" * len(SIZES))
+    ratios = []
+    for name, truth in eight_shapes().items():
+        for percent in SHAPE_PERCENTS:
+            cells = []
+            for n in SIZES:
+                clean = truth.resampled(n)
+                found = []
+                for seed in range(3):
+                    noisy = shaken(clean, percent, seed)
+                    own, peer = ours(truth, noisy), splprep_in_hindsight(truth, noisy, percent)
+                    found.append((own.rms / peer.rms, own.n_points))
+                ratio = float(np.exp(np.mean(np.log([one[0] for one in found]))))
+                ratios.append(ratio)
+                cells.append(f"{ratio:.2f} ({np.median([one[1] for one in found]):.0f})")
+            print(f"| {name} | {percent} % | " + " | ".join(cells) + " |", flush=True)
+    print(
+        f"\ngeometric mean {np.exp(np.mean(np.log(ratios))):.2f} (to reach: 0.70); worse by more"
+        f" than 15 %: {int(np.sum(np.array(ratios) > 1.15))} of {len(ratios)} (to reach: 0)\n"
+    )
+
+
 def noise() -> None:
     """What is found of the noise over the own corpus."""
     print("## Noise found over noise added, own corpus (to reach: within 20 %)\n")
@@ -167,8 +233,12 @@ def main() -> None:
     """Print every section."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--every", type=int, help="each so many-th outline; ten in all")
+    parser.add_argument("--shapes", action="store_true", help="eight shapes, nothing else")
     chosen = parser.parse_args()
     warnings.simplefilter("ignore")
+    if chosen.shapes:
+        shapes()
+        return
     noise()
     loop()
     corpus(chosen.every)

@@ -147,7 +147,8 @@ def _constraints(fit: ss.Fit, points: Array, options: dict[str, Any]) -> set[str
     for wanted, (a, b) in zip(tangents, (first[:2], last[-2:]), strict=True):
         if wanted is not None:
             (x, y), (u, v) = b - a, wanted
-            if abs(np.arctan2(u * y - v * x, u * x + v * y)) > 1e-6:
+            rounding = ROUNDING * np.abs(b).max() / np.hypot(x, y)
+            if abs(np.arctan2(u * y - v * x, u * x + v * y)) > 1e-6 + rounding:
                 found.add("tangent")
     return found
 

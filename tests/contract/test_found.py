@@ -315,3 +315,25 @@ def test_sparse_points_of_a_smooth_outline_make_no_waves(n, scale, tolerance):
     assert not len(smooth.corners)
     assert turned_wrongly(smooth) == pytest.approx(0.0, abs=1e-6)
     assert smooth.n_stored_points < 10
+
+
+@pytest.mark.parametrize(
+    ("seed", "tolerance", "effort"),
+    [(10528, 0.0062639805326850815, "fast"), (10856, 0.0012545062873238317, "balanced")],
+)
+def test_feet_on_curves_that_are_far_from_evenly_fast_are_found_from_everywhere(
+    seed, tolerance, effort
+):
+    # One way round, Newton's method went to and fro about a foot: the distance was 48 tolerances.
+    points = drawn(seed).points
+    fits = [
+        ss.fit_curve(way, closed=True, tolerance=tolerance, degree=5, form="spline", effort=effort)
+        for way in (points, points[::-1])
+    ]
+    assert fits[0].n_stored_points == fits[1].n_stored_points
+    one, other = (np.sort(fit.spline.control_points, axis=0) for fit in fits)
+    np.testing.assert_array_equal(one, other)
+    curve = fits[0].curve
+    dense = curve(np.linspace(0, 1, 50_001))
+    near = np.array([np.hypot(*(dense - p).T).min() for p in fits[0].contour.points])
+    assert fits[0].max_distance <= near.max() * 1.01

@@ -13,7 +13,12 @@ from shapespline.analysis.normalization import (
 )
 from shapespline.analysis.outliers import find_outliers
 from shapespline.analysis.reconstruction.ordering import Ordering, looks_shuffled, order_points
-from shapespline.analysis.resolution import NOISE_BAND, Resolution, resolution
+from shapespline.analysis.resolution import (
+    NOISE_BAND,
+    Resolution,
+    neighbours_to_average,
+    resolution,
+)
 from shapespline.analysis.run_averages import (
     WIDTHS,
     Averages,
@@ -64,6 +69,7 @@ __all__ = [
     "largest_bulge",
     "local_maxima",
     "looks_shuffled",
+    "neighbours_to_average",
     "noise_level",
     "order_points",
     "resolution",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from shapespline.analysis.noise import noise_level
 from shapespline.validation import median
 
 if TYPE_CHECKING:
+    from shapespline.typing import FloatArray
     from shapespline.values import Contour
 
 # Clean data cannot show, and nobody can see, less than this part of the median distance between
@@ -19,6 +21,10 @@ BOX_PARTS = (0.0005, 0.001)
 # A band about the data is so many standard deviations wide. Noise that the source knows, a
 # picture's, is bounded and alike from point to point: three are enough.
 NOISE_BAND, ACCURACY_BAND = 4.0, 3.0
+
+
+# Steps of an outline are seen between means of so many points (FIT-23).
+SMOOTHED, FEWEST_AVERAGED = 9, 100
 
 
 class Resolution(NamedTuple):
@@ -57,3 +63,21 @@ def resolution(contour: Contour) -> Resolution:
         return Resolution(noise, max(floor, ACCURACY_BAND * known), True)
     band = max(floor, NOISE_BAND * noise)
     return Resolution(noise, band, band == floor)
+
+
+def neighbours_to_average(points: FloatArray, closed: bool, deviation: float) -> int:
+    """How many neighbours are averaged for steps longer than their noise, 1 for none.
+
+    The arc length of dense noisy points is the noise's, not the outline's, and so are the points of
+    a curve that are nearest to them.
+    """
+    k = SMOOTHED
+    if len(points) <= FEWEST_AVERAGED:
+        return 1
+    wide = np.concatenate([points[-k:], points, points[:k]]) if closed else points
+    sums = np.cumsum(wide, axis=0)
+    soft = (sums[k:] - sums[:-k]) / k
+    step = median(np.hypot(*(soft[k:] - soft[:-k]).T)) / k
+    if step >= deviation:
+        return 1
+    return ceil((deviation / step) ** (2 / 3))

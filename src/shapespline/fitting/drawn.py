@@ -18,6 +18,7 @@ from shapespline.values import Contour, Piece
 if TYPE_CHECKING:
     from shapespline.analysis import Resolution
     from shapespline.engines.drawn import Drawn
+    from shapespline.fitting.estimate import Estimation
     from shapespline.fitting.strategies import Ask, Proposals
     from shapespline.monitor import Monitor
     from shapespline.values import Regularity
@@ -32,12 +33,17 @@ FARTHEST, FARTHEST_OF_PICTURE, FARTHEST_CORNER = 1.5, 25.0, 75.0
 class DrawnPieces:
     """Lines, arcs and free-form runs as they were drawn.
 
-    ``ask`` fits the free-form runs between their ends, with the tangents there; ``shown`` is what
-    the points can show where no tolerance is given.
+    ``ask`` fits the free-form runs between their ends, with the tangents there; ``estimation`` is
+    what the points tell where no tolerance is given.
     """
 
     ask: Ask
-    shown: Resolution | None = None
+    estimation: Estimation | None = None
+
+    @property
+    def shown(self) -> Resolution | None:
+        """What the points can show where no tolerance is given."""
+        return None if self.estimation is None else self.estimation.shown
 
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
         """One curve, if the data tell of lines and arcs; a simpler one too, if asked for."""
@@ -58,7 +64,7 @@ class DrawnPieces:
         if runs and self.shown is not None and not self.shown.clean:
             return  # noise between them is smoothed with the rest
         candidate = self._candidate(problem, found, within, monitor)
-        if candidate is None or not (self.shown is None or self._explains(candidate, problem)):
+        if candidate is None or not self._explains(candidate, problem):
             return
         yield candidate
         if style.simplify:
@@ -116,9 +122,11 @@ class DrawnPieces:
         return tuple(pieces), kept
 
     def _explains(self, candidate: Candidate, problem: Problem) -> bool:
-        """Whether the curve comes near all points."""
+        """Whether the curve comes near all points, and noisy ones tell no other as well."""
+        if self.estimation is None:
+            return True
         contour = problem.contour
-        farthest = beyond = FARTHEST * (self.shown.band if self.shown else problem.tolerance)
+        farthest = beyond = FARTHEST * self.estimation.shown.band
         pixel = median(np.diff(contour.arc_length))
         if contour.level_line is None and len(candidate.pieces) > 1:
             beyond = max(beyond, pixel)  # corners lie between points
@@ -127,7 +135,9 @@ class DrawnPieces:
             beyond = min(max(beyond, FARTHEST_CORNER * contour.accuracy), 2.0 * pixel)
         curve = joined(candidate.pieces, problem.request.style.degree)
         found = two_sided_distance(curve, contour).beside(candidate.pieces)
-        return found.max_distance <= farthest and found.reverse_distance <= beyond
+        if found.max_distance > farthest or found.reverse_distance > beyond:
+            return False
+        return self.estimation.shown.clean or self.estimation.justifies(candidate.pieces)
 
 
 def _in_data(

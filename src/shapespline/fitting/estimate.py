@@ -15,7 +15,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.analysis import NOISE_BAND, NormalizedContour, resolution
+from shapespline.analysis import (
+    NOISE_BAND,
+    NormalizedContour,
+    neighbours_to_average,
+    resolution,
+)
 from shapespline.engines.least_squares import (
     FINAL_LIMITS,
     PENALTY,
@@ -41,16 +46,19 @@ if TYPE_CHECKING:
     from shapespline.fitting.strategies import Ask, Proposals
     from shapespline.monitor import Monitor
     from shapespline.typing import FloatArray, IntArray
-    from shapespline.values import Piece
+    from shapespline.values import BSplineCurve, Piece
 
 # A smoothed outline is followed within one of these numbers of its standard errors (FIT-01).
 STANDARD_ERRORS = (1.5, 2.0, 3.0)
 # Pieces may cost at most this part of what one spline costs: with corners that are proven, which
-# everybody sees, and without.
-CHARACTER, NO_CORNERS = 1.02, 0.97
+# everybody sees, and without; what was drawn, whose regularities make its points fewer than they
+# are counted, a little more (DRA-16).
+CHARACTER, NO_CORNERS, DRAWN_CHARACTER = 1.02, 0.97, 1.05
 # If a point is farther than so many bands away, the estimate has missed something: a jump, a spike,
 # a track too sparse to be smoothed (FIT-06).
 FARTHEST = 1.5
+# An open outline of means begins half a step before the first, as the next so many lead (FIT-23).
+ENDS = 4
 
 
 class Evidence(NamedTuple):
@@ -72,26 +80,25 @@ class Evidence(NamedTuple):
         return self.cost <= part * smooth.cost and self.n_stored_points <= smooth.n_stored_points
 
     @classmethod
-    def of_spline(cls, start: Balanced, contour: Contour, noise: float) -> Evidence:
+    def of_spline(cls, start: Balanced, means: Means, contour: Contour) -> Evidence:
         """Of one spline."""
         found = two_sided_distance(start.spline, contour)
-        misfit = len(contour) * (found.rms_distance / noise) ** 2
         size = start.spline.n_control_points
-        return cls(misfit + PENALTY * size, found.max_distance, size)
+        return cls(means.misfit(start.spline) + PENALTY * size, found.max_distance, size)
 
     @classmethod
     def of_pieces(
         cls,
         pieces: tuple[Piece, ...],
         degree: int,
+        means: Means,
         contour: Contour,
-        noise: float,
         n_proven: int,
     ) -> Evidence:
         """Of pieces; a corner that is not proven is one of n places, which costs log n more."""
-        found = two_sided_distance(joined(pieces, degree), contour)
-        misfit = len(contour) * (found.rms_distance / noise) ** 2
-        stored = sum(len(piece.control_points) - 1 for piece in pieces)
+        curve = joined(pieces, degree)
+        found, misfit = two_sided_distance(curve, contour), means.misfit(curve)
+        stored = sum(piece.n_stored for piece in pieces)
         stored += 0 if contour.closed else 1
         sharp = [
             abs(turn_between(before, after)) > CORNER_TURN
@@ -101,10 +108,44 @@ class Evidence(NamedTuple):
         return cls(misfit + price, found.hausdorff_distance, stored, n_proven)
 
 
+class Means(NamedTuple):
+    """Means of so many neighbours each, and their standard deviation across.
+
+    Points that scatter by more than their steps are nearest to a curve anywhere: one that winds
+    through them seems to fit better, and one through their middle is drawn in where it bends.
+    """
+
+    contour: Contour
+    noise: float
+
+    @classmethod
+    def of(cls, contour: Contour, noise: float, width: int, ends: bool) -> Means:
+        """Of a contour; its own ends, if they are kept, else where the means lead to."""
+        if width == 1:
+            return cls(contour, noise)
+        points = contour.points
+        begins = np.arange(0, len(points) - width + 1, width)
+        counts = np.diff([*begins, len(points)])
+        means = np.add.reduceat(points, begins, axis=0) / counts[:, None]
+        if not contour.closed:
+            first, last = points[0], points[-1]
+            if not ends:
+                first = means[0] + (means[0] - means[ENDS]) / (2 * ENDS)
+                last = means[-1] + (means[-1] - means[-1 - ENDS]) / (2 * ENDS)
+            means = np.concatenate([first[None], means, last[None]])
+        return cls(Contour.silently(means, contour.closed), noise / width**0.5)
+
+    def misfit(self, curve: BSplineCurve) -> float:
+        """Chi squared of a curve."""
+        far = two_sided_distance(curve, self.contour).rms_distance
+        return len(self.contour) * (far / self.noise) ** 2
+
+
 class Estimation:
     """What the points of a problem tell of the curve behind them, found once.
 
-    ``ordered`` are the points in canonical order, data units; ``shown`` what they can show.
+    ``ordered`` are the points in canonical order, data units; ``shown`` what they can show;
+    ``width`` how many neighbours are averaged.
     """
 
     def __init__(self, problem: Problem, monitor: Monitor) -> None:
@@ -115,16 +156,38 @@ class Estimation:
         )
         self.shown: Resolution = resolution(self.ordered)
         self._degree, self._monitor = problem.request.style.degree, monitor
+        self._ends = problem.request.constraints.ends
+        self.width = 1
+        if not (self.shown.clean or problem.request.style.names_corners):
+            points, closed = self.ordered.points, contour.closed
+            self.width = neighbours_to_average(points, closed, self.shown.noise)
+
+    @cached_property
+    def means(self) -> Means:
+        """Of the points, data units."""
+        return self.means_of(self.ordered, self.shown.noise)
+
+    def means_of(self, contour: Contour, noise: float) -> Means:
+        """Of the points in another unit."""
+        return Means.of(contour, noise, self.width, self._ends)
 
     @cached_property
     def start(self) -> Balanced:
         """One spline over all points, of the size that the criterion chooses."""
-        return smooth_start(self.ordered, self._degree, monitor=self._monitor)
+        contour, noise = self.means
+        known = noise if self.width > 1 else None
+        return smooth_start(contour, self._degree, noise=known, monitor=self._monitor)
 
     @cached_property
     def smooth(self) -> Evidence:
         """What the points say of it."""
-        return Evidence.of_spline(self.start, self.ordered, self.shown.noise)
+        return Evidence.of_spline(self.start, self.means, self.ordered)
+
+    def justifies(self, pieces: tuple[Piece, ...]) -> bool:
+        """Whether lines and arcs tell the points as well as one spline does."""
+        joints = len(pieces)  # all of them drawn, none by chance
+        said = Evidence.of_pieces(pieces, self._degree, self.means, self.ordered, joints)
+        return said.cost <= DRAWN_CHARACTER * self.smooth.cost
 
     def explains(self, evidence: Evidence) -> bool:
         """Whether a curve comes near all points."""
@@ -162,8 +225,9 @@ class ObservedPieces:
         monitor ended the search.
         """
         request, normalized = problem.request, self.estimation.normalized
-        shown, work, degree = self.estimation.shown, normalized.contour, request.style.degree
-        noise = shown.noise * normalized.scale
+        shown, degree = self.estimation.shown, request.style.degree
+        means = self.estimation.means_of(normalized.contour, shown.noise * normalized.scale)
+        work, noise = means
         runs = Runs(work, min(degree, PIECE_DEGREE), noise, monitor)
         at = self._corners(problem, runs)
         points, size = runs.joined(at)
@@ -189,7 +253,7 @@ class ObservedPieces:
                 return None
             if request.constraints.ends and not work.closed:
                 pinned_exactly(pieces, work.points[[0, -1]])
-            said = Evidence.of_pieces(pieces, degree, work, noise, len(at))
+            said = Evidence.of_pieces(pieces, degree, means, normalized.contour, len(at))
             found.append((said._replace(farthest=said.farthest / normalized.scale), pieces))
         band = FARTHEST * NOISE_BAND * shown.noise
         said, pieces = min(found, key=lambda one: (one[0].farthest > band, one[0].cost))
@@ -219,7 +283,8 @@ class SmoothedSpline:
         if not self.estimation.explains(self.estimation.smooth):
             return
         ordered, normalized = self.estimation.ordered, self.estimation.normalized
-        found = _finished(problem, ordered, self.estimation.start, None, monitor)
+        told = self.estimation.means.contour
+        found = _finished(problem, told, self.estimation.start, None, monitor)
         spline, candidate = found.spline, _candidate(problem, found)
         distances = two_sided_distance(spline, ordered)
         parameters = distances.parameters[normalized.new_index]

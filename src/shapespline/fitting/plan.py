@@ -80,7 +80,7 @@ def _plan_estimate(
         return
     estimation = Estimation(problem, monitor)
     if problem.request.style.character == "drawn":
-        yield DrawnPieces(ask, estimation.shown)
+        yield DrawnPieces(ask, estimation)
         if len(shortlist):
             return
     if not estimation.shown.clean:

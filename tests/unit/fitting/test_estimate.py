@@ -148,3 +148,44 @@ def test_parameters_belong_to_their_points():
         fit = fit_curve(points, closed=True)
         off = np.hypot(*(fit.spline(fit.parameters) - points).T)
         assert off.max() <= fit.max_distance * (1 + 1e-9)
+
+
+# --- dense points that scatter by more than their steps -------------------------------------------
+
+
+def wiggly(n):
+    """Eleven shallow waves about a circle, smooth; at equal steps, about 100 large."""
+    t = np.linspace(0, 2 * np.pi, 8000, endpoint=False)
+    radius = 35 * (1 + 0.15 * np.sin(5 * t) + 0.08 * np.cos(11 * t))
+    return Contour(radius[:, None] * np.column_stack([np.cos(t), np.sin(t)]), True).resampled(n)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("percent", [0.5, 2.0])
+def test_noise_makes_no_corners_on_smooth_waves(percent):
+    truth = wiggly(5000)
+    fit = fit_curve(shaken(truth, percent, 0))
+    assert not len(fit.corners)
+    # Without knowing where along the curve a point belongs: within about three times what
+    # independent errors leave of a spline of so many points.
+    noise = 0.01 * percent * truth.box_diagonal
+    assert rms_to(truth, fit) < 3 * noise * np.sqrt(fit.n_stored_points / len(truth))
+
+
+def test_lines_and_arcs_are_no_better_for_a_noisy_ellipse_than_a_curve():
+    t = np.linspace(0, 2 * np.pi, 5000, endpoint=False)
+    ellipse = Contour(np.column_stack([50 * np.cos(t), 10 * np.sin(t)]), closed=True)
+    for seed in (1, 2):
+        fit = fit_curve(shaken(ellipse.resampled(5000), 2.0, seed))
+        assert [piece.kind for piece in fit.pieces] == ["spline"]
+
+
+def test_a_noisy_square_with_round_corners_is_no_circle():
+    quarter = np.linspace(0, np.pi / 2, 200)
+    arcs = [
+        np.column_stack([x + np.cos(quarter + a), y + np.sin(quarter + a)])
+        for x, y, a in ((1, 1, 0), (-1, 1, np.pi / 2), (-1, -1, np.pi), (1, -1, 1.5 * np.pi))
+    ]
+    square = Contour(np.concatenate(arcs), closed=True).resampled(100)
+    for seed in range(3):
+        assert fit_curve(shaken(square, 2.0, seed)).n_stored_points > 2

@@ -167,6 +167,10 @@ class CurveSearch {
         };
         consider(1.0, norm_sq(piece.points[Degree] - q));
         bool last = false;
+        // The distance falls on to the foot from both sides. Steps that leave what is left between
+        // them, as where the curve is far from evenly fast, halve it.
+        double low = 0.0, high = 1.0;
+        bool from_low = false, from_high = false;
         for (int iteration = 0; iteration < kNewtonSteps; ++iteration) {
             const auto jet = piece.at(s);
             const Vec2 r = jet.point - q;
@@ -176,7 +180,11 @@ class CurveSearch {
             // Where the second derivative is not safely positive, Gauss-Newton still descends.
             const double curvature = std::max(newton, 0.25 * norm_sq(jet.first));
             if (last || !(curvature > 0.0)) break;
-            const double next = std::clamp(s - slope / curvature, 0.0, 1.0);
+            (slope > 0.0 ? from_high : from_low) = true;
+            (slope > 0.0 ? high : low) = s;
+            double next = s - slope / curvature;
+            if (next <= low) next = from_low ? 0.5 * (low + high) : low;
+            if (next >= high) next = from_high ? 0.5 * (low + high) : high;
             if (next == s) break;
             last = curvature == newton && std::abs(next - s) <= kLastStep;
             if (last && slope * slope <= kNothing * newton * norm_sq(r)) {

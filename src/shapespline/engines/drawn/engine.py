@@ -40,8 +40,9 @@ if TYPE_CHECKING:
 
 # Fewer points tell no structure.
 FEWEST_POINTS = 12
-# A whole circle is within so many deviations in the mean (DRA-06).
-ROUND = 2.0
+# A whole circle is within so many deviations in the mean (DRA-06), of measured points, whose errors
+# are independent, fewer (DRA-16).
+ROUND, ROUND_OF_POINTS = 2.0, 1.3
 # An outline of more elements than these that have fewer points each, or that contradict their
 # points so many times, is none that was drawn, which takes long to find out (DRA-10).
 MANY_ELEMENTS, POINTS_EACH, MOST_ROUNDS = 40, 10, 30
@@ -142,7 +143,8 @@ def _whole_circle(seen: Observed) -> DrawnArc | None:
     weights = np.ones(len(points))
     cx, cy, r = circle_of(points, weights)
     off = np.hypot(points[:, 0] - cx, points[:, 1] - cy) - r
-    if float(np.sqrt((off**2).mean())) > ROUND * seen.largest_deviation:
+    most = ROUND if seen.pixel else ROUND_OF_POINTS
+    if float(np.sqrt((off**2).mean())) > most * seen.largest_deviation:
         return None
     if float(np.abs(off).max()) > LARGEST * seen.largest_deviation:
         return None

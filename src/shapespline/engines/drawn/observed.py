@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.analysis import noise_level
+from shapespline.analysis import neighbours_to_average, noise_level
 from shapespline.validation import median
 from shapespline.values import Contour
 
@@ -27,9 +27,8 @@ SLOW, BEST = 3.0, 0.3
 ONE_BIT = 0.15
 # Points of a table are not known better than this part of the extent (DRA-02).
 LAST_DIGIT = 1e-5
-# Dense noisy points are averaged until their steps are longer than their noise; arc length would be
-# the noise's, not the outline's (DRA-03). Of more points than these every so many-th is looked at:
-# of clean ones, of noisy ones and those of a picture, which all count (DRA-09).
+# Of more points than these every so many-th is looked at: of clean ones, of noisy ones, which are
+# averaged first (DRA-03), and those of a picture, which all count (DRA-09).
 MOST_POINTS, MOST_NOISY = 1000, 6000
 
 
@@ -74,7 +73,7 @@ class Observed:
         extent = float(np.ptp(points, axis=0).max())
         # What they are said to be accurate to does not make lines of smooth points.
         deviation = max(noise_level(Contour.trusted(points, closed)), LAST_DIGIT * extent)
-        k = _averaged(points, closed, deviation)
+        k = neighbours_to_average(points, closed, deviation)
         every = len(points) // (max(k, 1) * MOST_POINTS)
         if k == 1 and every > 1:
             points = _thinned(points, closed, every)
@@ -115,17 +114,3 @@ def _thinned(points: FloatArray, closed: bool, every: int) -> FloatArray:
     """Every so many-th point, and both ends of an open row."""
     rest = points[-1:] if not closed and (len(points) - 1) % every else points[:0]
     return np.concatenate([points[::every], rest])
-
-
-def _averaged(points: FloatArray, closed: bool, deviation: float) -> int:
-    """How many neighbours are averaged."""
-    k = 9
-    if len(points) <= 100:
-        return 1
-    wide = np.concatenate([points[-k:], points, points[:k]]) if closed else points
-    sums = np.cumsum(wide, axis=0)
-    soft = (sums[k:] - sums[:-k]) / k
-    step = median(np.hypot(*(soft[k:] - soft[:-k]).T)) / k
-    if step >= deviation:
-        return 1
-    return ceil((deviation / step) ** (2 / 3))
