@@ -34,11 +34,15 @@ from checks import turns, two_sided
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
+    from numpy.typing import NDArray
+
 ROOT = Path(__file__).parent.parent
 OWN = ROOT / "examples" / "data" / "outlines"
 LARGE = ROOT.parent / "shared" / "data"
 TOLERANCES = (0.5, 0.1, 0.02)  # per cent of the box diagonal
 LONGEST = 20_000
+# How far from a node the data are asked what they turn, tolerances.
+ABOUT = 3.0
 # Degrees that a joint turns which is neither smooth nor a corner.
 LITTLE = (1.01, 30.0)
 # What the certified bound may miss of the sampled distance: rounding alone.
@@ -70,6 +74,7 @@ class Row(NamedTuple):
     polyline: float
     joints: int  # beside a curve
     turning: int  # of those, turn a little: no corner, nor smooth
+    turning_alone: int  # of these, where the data turn less
 
 
 def own_corpus() -> Iterator[Outline]:
@@ -130,15 +135,32 @@ def measure(outline: Outline, percent: float, *, peers: bool, **options: object)
     )
 
 
-def joints(fit: ss.Fit) -> tuple[int, int]:
-    """Joints beside a curve, and those that turn a little; one spline has none."""
+def joints(fit: ss.Fit) -> tuple[int, int, int]:
+    """Joints beside a curve, those that turn a little, and of these where the data turn less.
+
+    One spline has none.
+    """
     pieces = fit.sections
     if not pieces:
-        return 0, 0
+        return 0, 0, 0
     degree = np.array([piece.degree for piece in pieces])
     beside = np.maximum(degree, np.roll(degree, 1))[0 if fit.closed else 1 :] > 1
     turn = np.degrees(np.abs(turns(pieces, closed=fit.closed)))[beside]
-    return len(turn), int(((turn > LITTLE[0]) & (turn < LITTLE[1])).sum())
+    nodes = np.array([piece.control_points[0] for piece in pieces[0 if fit.closed else 1 :]])
+    little = (turn > LITTLE[0]) & (turn < LITTLE[1])
+    about = np.array([turned_about(fit, node) for node in nodes[beside]])
+    return len(turn), int(little.sum()), int((about < turn)[little].sum())
+
+
+def turned_about(fit: ss.Fit, node: NDArray[np.float64]) -> float:
+    """Degrees between the directions of the data within ``ABOUT`` tolerances of a node."""
+    track, at = fit.contour.polyline, fit.contour.arc_length
+    middle = at[int(np.hypot(*(track - node).T).argmin())]
+    reach = ABOUT * fit.tolerance
+    first = max(int(np.searchsorted(at, middle - reach)) - 1, 0)
+    last = min(int(np.searchsorted(at, middle + reach)) + 1, len(at))
+    x, y = np.diff(track[first:last], axis=0).T
+    return float(np.degrees(np.ptp(np.unwrap(np.arctan2(y, x)))))
 
 
 def report(rows: list[Row]) -> None:
@@ -154,7 +176,11 @@ def report(rows: list[Row]) -> None:
     _line("all", rows)
     print("\nstatuses:", dict(Counter(row.status for row in rows)))
     n_joints, n_turning = sum(row.joints for row in rows), sum(row.turning for row in rows)
-    print(f"joints beside a curve: {n_joints}, {n_turning} turn by 1 to 30 degrees")
+    n_less = sum(row.turning_alone for row in rows)
+    print(
+        f"joints beside a curve: {n_joints}, {n_turning} turn by 1 to 30 degrees,"
+        f" {n_less} of them where the data turn less"
+    )
     print("\nWorst ten against the better peer:")
     for row in worst(rows):
         print(
