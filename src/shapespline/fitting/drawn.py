@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn import DrawnArc, DrawnLine, FreeRun, as_drawn, simplified
+from shapespline.engines.drawn import (
+    ONE_BIT,
+    DrawnArc,
+    DrawnLine,
+    FreeRun,
+    as_drawn,
+    simplified,
+)
 from shapespline.fitting.choose import DRAWN
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.verify import Candidate
@@ -125,19 +132,22 @@ class DrawnPieces:
         """Whether the curve comes near all points, and noisy ones tell no other as well."""
         if self.estimation is None:
             return True
-        contour = problem.contour
-        farthest = beyond = FARTHEST * self.estimation.shown.band
-        pixel = median(np.diff(contour.arc_length))
-        if contour.level_line is None and len(candidate.pieces) > 1:
-            beyond = max(beyond, pixel)  # corners lie between points
-        elif contour.accuracy is not None:
-            farthest = min(max(farthest, FARTHEST_OF_PICTURE * contour.accuracy), pixel)
-            beyond = min(max(beyond, FARTHEST_CORNER * contour.accuracy), 2.0 * pixel)
-        curve = joined(candidate.pieces, problem.request.style.degree)
-        found = two_sided_distance(curve, contour).beside(candidate.pieces)
+        contour, shown = problem.contour, self.estimation.shown
+        found = two_sided_distance(joined(candidate.pieces, problem.request.style.degree), contour)
+        farthest = beyond = FARTHEST * shown.band
+        step = median(np.diff(contour.arc_length))
+        accuracy = None if contour.level_line is None else contour.accuracy
+        if accuracy is not None:
+            farthest = min(max(farthest, FARTHEST_OF_PICTURE * accuracy), step)
+            beyond = min(max(beyond, FARTHEST_CORNER * accuracy), 2.0 * step)
+            if accuracy > ONE_BIT * step:
+                found = found.beside(candidate.pieces)
+        elif len(candidate.pieces) > 1:
+            beyond = max(beyond, step)  # corners lie between points
         if found.max_distance > farthest or found.reverse_distance > beyond:
             return False
-        return self.estimation.shown.clean or self.estimation.justifies(candidate.pieces)
+        # What is left of a picture's slow errors is no noise.
+        return accuracy is not None or shown.clean or self.estimation.justifies(candidate.pieces)
 
 
 def _in_data(

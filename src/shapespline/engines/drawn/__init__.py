@@ -2,13 +2,14 @@
 
 from shapespline.engines.drawn.across import Feature, repeated_outlines
 from shapespline.engines.drawn.engine import as_drawn
-from shapespline.engines.drawn.observed import Observed
+from shapespline.engines.drawn.observed import ONE_BIT, Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES
 from shapespline.engines.drawn.simplify import simplified
 
 __all__ = [
     "NAMES",
+    "ONE_BIT",
     "Drawn",
     "DrawnArc",
     "DrawnLine",
