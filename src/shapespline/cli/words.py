@@ -19,6 +19,7 @@ WORDS = (
     ),
     (r"\b(corners|form|ends|effort|unit|character)='([^']*)'", r"--\1 \2"),
     (r"\bsmoothness=(\d)", r"--smoothness \1"),
+    (r"\btolerance=([^\s,;)]+)", r"--tolerance \1"),
     (r"\bwith weights or form=\S+", "with --form spline"),
     (
         r"\b(time_limit|arc_tolerance|safe_height|min_area|y_down|shared_boundaries)\b(?:=([^\s,;)]+))?",
@@ -44,6 +45,8 @@ def own_words(sentence: str) -> str:
     'left out as noise: --min-area 0 keeps them'
     >>> own_words("corners and effort do not act with time_limit=3")
     'corners and effort do not act with --time-limit 3'
+    >>> own_words("give more points or tolerance=0.0075 for a smooth curve")
+    'give more points or --tolerance 0.0075 for a smooth curve'
     >>> own_words("beside character='drawn' leave n_control_points, weights, sigma and loss out")
     'beside --character drawn leave --control-points, --sigma and --loss out'
     """
