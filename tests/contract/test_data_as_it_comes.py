@@ -9,8 +9,11 @@ from checks import two_sided
 from shapespline import Contour, DroppedPointsWarning, Status, fit_curve
 from shapespline.fitting.request import tolerance_length
 
-# Noise alone looks shuffled, and is: what comes of it has to be true all the same.
-pytestmark = pytest.mark.filterwarnings("ignore::shapespline.ShuffledPointsWarning")
+# Noise alone looks shuffled, and is; few points of a ring are sparse: what comes of them has to be
+# true all the same.
+pytestmark = pytest.mark.filterwarnings(
+    "ignore::shapespline.ShuffledPointsWarning", "ignore::shapespline.SparsePointsWarning"
+)
 
 
 def ring(n, radius=10.0):

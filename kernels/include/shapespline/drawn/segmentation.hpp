@@ -67,6 +67,7 @@ class Segmentation {
         near_[0] = beside(settings.skip);
         near_[1] = beside(0.5 * settings.skip);
         lay_candidates(candidates, nodes);
+        find_corners();
     }
 
     std::vector<DrawnPiece> run() {
@@ -158,7 +159,24 @@ class Segmentation {
     // A corner may lie between two points, if no picture blunted it: the first of a piece is then
     // the last of the piece before it alone (DRA-15).
     bool between_points(std::size_t i, std::size_t j) const {
-        return !(settings_.skip > 0.0) && j > i + 2 && s_[i + 1] - s_[i] < settings_.shortest;
+        return j > i + 2 && corner_behind_[i];
+    }
+
+    // Whether the outline turns at a point or at the next one by as much as half a corner does.
+    void find_corners() {
+        corner_behind_.assign(n_, 0);
+        if (settings_.skip > 0.0) return;
+        std::vector<char> turns(n_ + 1, 0);
+        const bool closed = norm(points_[0] - points_[n_ - 1]) == 0.0;
+        for (std::size_t k = closed ? 0 : 1; k + 1 < n_; ++k) {
+            const Vec2 before = points_[k] - points_[k > 0 ? k - 1 : n_ - 2];
+            const Vec2 after = points_[k + 1] - points_[k];
+            turns[k] = std::abs(cross(before, after)) >
+                       0.5 * settings_.smooth_turn * dot(before, after);
+        }
+        for (std::size_t i = 0; i + 1 < n_; ++i)
+            corner_behind_[i] = (turns[i] || turns[i + 1]) &&
+                                s_[i + 1] - s_[i] < settings_.shortest;
     }
 
     // A line and an arc through the points that count; what is left of the better one's misfit
@@ -269,7 +287,7 @@ class Segmentation {
     std::vector<std::array<State, kKinds>> states_;
     double precision_ = 0.0, limit_ = 0.0;
     std::array<Beside, 2> near_;
-    std::vector<char> is_candidate_, may_be_node_;
+    std::vector<char> is_candidate_, may_be_node_, corner_behind_;
     std::vector<std::size_t> candidates_;
 };
 

@@ -179,6 +179,7 @@ def spiky():
 @pytest.mark.parametrize("part", [0.2, 0.01, 1e-4])
 @pytest.mark.parametrize("corners", ["auto", "free", None])
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::shapespline.SparsePointsWarning")
 def test_awkward_outlines_keep_the_promise(points, part, corners):
     for closed in (True, False):
         contour = Contour(points, closed=closed)
