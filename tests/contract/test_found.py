@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 from benchmarks.attack.judge import NEAR_CUSP
+from benchmarks.attack.options import drawn_options
 from benchmarks.attack.shapes import drawn
 from scipy.interpolate import BSpline, splev
 from tests.support.shapes import on_circle
@@ -337,3 +338,13 @@ def test_feet_on_curves_that_are_far_from_evenly_fast_are_found_from_everywhere(
     dense = curve(np.linspace(0, 1, 50_001))
     near = np.array([np.hypot(*(dense - p).T).min() for p in fits[0].contour.points])
     assert fits[0].max_distance <= near.max() * 1.01
+
+
+@pytest.mark.parametrize("seed", [21338])
+def test_mirrored_chains_of_lines_meet_on_the_axis(seed):
+    # Two halves in degree 1, a small spline of lines on the axis: its inner points were lost.
+    shape = drawn(seed)
+    options = drawn_options(np.random.default_rng([seed, 1]), shape.points, shape.closed)
+    fit = ss.fit_curve(shape.points, **options)
+    assert fit.kept
+    assert {piece.degree for piece in fit.pieces} == {1}

@@ -105,7 +105,7 @@ def _united(a: Piece, b: Piece) -> list[Piece]:
     """One piece instead of two where they go on with the same velocity, else both."""
     if a.degree != b.degree or not abs(turn_between(a, b)) < SAME_LINE_TURN:
         return [a, b]
-    if a.degree == 1:
+    if len(a.control_points) == len(b.control_points) == 2:
         return [a._replace(control_points=np.array([a.control_points[0], b.control_points[-1]]))]
     if len(a.control_points) != len(b.control_points):
         return [a, b]
