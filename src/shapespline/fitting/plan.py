@@ -143,7 +143,8 @@ def plan_pieces(problem: Problem, shortlist: Shortlist) -> Iterator[Strategy]:
         is_rough = found is not None and found.fit.n_stored_points > rough
         if is_rough and may_be_lines and request.is_plain:
             yield Lines(needed=True, fewer_than=inf)
-            if shortlist.kept:
+            lines = shortlist.among(LINES)
+            if lines is not None and lines.kept:
                 return
         yield Pieces(TOLERANCE_FACTORS[1:])
         found = shortlist.among(PIECES)
