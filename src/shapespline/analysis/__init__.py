@@ -16,6 +16,7 @@ from shapespline.analysis.reconstruction.ordering import Ordering, looks_shuffle
 from shapespline.analysis.resolution import (
     NOISE_BAND,
     Resolution,
+    means_of,
     neighbours_to_average,
     resolution,
 )
@@ -69,6 +70,7 @@ __all__ = [
     "largest_bulge",
     "local_maxima",
     "looks_shuffled",
+    "means_of",
     "neighbours_to_average",
     "noise_level",
     "order_points",

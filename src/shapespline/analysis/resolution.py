@@ -65,6 +65,19 @@ def resolution(contour: Contour) -> Resolution:
     return Resolution(noise, band, band == floor)
 
 
+def means_of(points: FloatArray, width: int) -> FloatArray:
+    """Means of so many neighbours each; the last one of those that are left over, too.
+
+    Examples
+    --------
+    >>> means_of(np.array([(0.0, 0.0), (2.0, 0.0), (4.0, 2.0), (6.0, 2.0), (8.0, 2.0)]), 2).tolist()
+    [[1.0, 0.0], [6.0, 2.0]]
+    """
+    begins = np.arange(0, len(points) - width + 1, width)
+    counts = np.diff(np.append(begins, len(points)))
+    return np.add.reduceat(points, begins, axis=0) / counts[:, None]
+
+
 def neighbours_to_average(points: FloatArray, closed: bool, deviation: float) -> int:
     """How many neighbours are averaged for steps longer than their noise, 1 for none.
 

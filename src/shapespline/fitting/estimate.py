@@ -18,6 +18,7 @@ import numpy as np
 from shapespline.analysis import (
     NOISE_BAND,
     NormalizedContour,
+    means_of,
     neighbours_to_average,
     resolution,
 )
@@ -124,9 +125,7 @@ class Means(NamedTuple):
         if width == 1:
             return cls(contour, noise)
         points = contour.points
-        begins = np.arange(0, len(points) - width + 1, width)
-        counts = np.diff([*begins, len(points)])
-        means = np.add.reduceat(points, begins, axis=0) / counts[:, None]
+        means = means_of(points, width)
         if not contour.closed:
             first, last = points[0], points[-1]
             if not ends:

@@ -183,6 +183,7 @@ class CurveSearch {
             (slope > 0.0 ? from_high : from_low) = true;
             (slope > 0.0 ? high : low) = s;
             double next = s - slope / curvature;
+            if (next == s) break;
             if (next <= low) next = from_low ? 0.5 * (low + high) : low;
             if (next >= high) next = from_high ? 0.5 * (low + high) : high;
             if (next == s) break;

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.analysis import neighbours_to_average, noise_level
+from shapespline.analysis import means_of, neighbours_to_average, noise_level
 from shapespline.validation import median
 from shapespline.values import Contour
 
@@ -78,8 +78,7 @@ class Observed:
         if k == 1 and every > 1:
             points = _thinned(points, closed, every)
         if k > 1:
-            m = len(points) // k
-            points = points[: m * k].reshape(m, k, 2).mean(axis=1)
+            points = means_of(points, k)
             deviation = max(deviation / k**0.5, LAST_DIGIT * extent)
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
         return cls(points, closed, deviation, deviation, 0.0, 0.0)
