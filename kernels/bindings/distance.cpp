@@ -8,6 +8,7 @@
 
 #include "arrays.hpp"
 #include "shapespline/distance/crossing_pairs.hpp"
+#include "shapespline/distance/hooks.hpp"
 #include "shapespline/distance/crossings.hpp"
 #include "shapespline/distance/deviation.hpp"
 #include "shapespline/distance/near_feet.hpp"
@@ -72,6 +73,14 @@ void bind_distance(nb::module_ &m) {
             return ss::count_crossings(std::span<const ss::Vec2>(vectors(vertices)));
         },
         "vertices"_a.noconvert());
+
+    m.def(
+        "count_hooks",
+        [](In2 vertices, In2 polyline, double tolerance) {
+            nb::gil_scoped_release release;
+            return ss::count_hooks(vectors(vertices), vectors(polyline), tolerance);
+        },
+        "vertices"_a.noconvert(), "polyline"_a.noconvert(), "tolerance"_a);
 
     m.def(
         "crossing_pairs",

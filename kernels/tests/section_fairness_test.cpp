@@ -1,4 +1,7 @@
 // Sections that stand still or turn back where their data do not.
+#include <cmath>
+#include <numbers>
+
 #include "check.hpp"
 #include "shapespline/pieces/section_fairness.hpp"
 
@@ -64,4 +67,30 @@ TEST(a_turn_back_at_a_joint_is_a_hook_where_the_data_go_on) {
     const std::vector<Section> row{there, back, on};
     CHECK(SectionFairness(data, 0.5).n_unfair(row) == 2);
     for (const Section &one : row) CHECK(is_fair(data, 0.5, one));
+}
+
+TEST(a_joint_where_a_closed_outline_begins_may_be_a_hook_too) {
+    // Three laps of a circle of 100 data, in two sections.
+    const auto at = [](double k) {
+        const double angle = 0.02 * std::numbers::pi * k;
+        return Vec2{10.0 * std::cos(angle), 10.0 * std::sin(angle)};
+    };
+    std::vector<Vec2> data;
+    for (int k = 0; k <= 300; ++k) data.push_back(at(k));
+    const auto arc = [&](Index first, Vec2 end) {
+        const double along = 40.0 / 3.0;
+        const Vec2 a = at(first), v = {-0.1 * a.y, 0.1 * a.x}, w = {-0.1 * end.y, 0.1 * end.x};
+        Section section = cubic({a, a + along * v, end - along * w, end}, 50);
+        section.first += first, section.last += first;
+        return section;
+    };
+    const Section upper = arc(100, at(150)), lower = arc(150, at(200));
+    const SectionRing ring({upper, lower}, 100, false);
+    Section past = lower;
+    past.points = {at(150), at(160), at(202) + Vec2{0.0, 1.0}, at(200)};
+    SectionFairness fairness(data, 1.0);
+    CHECK(fairness.may_replace(ring, 1, 1, std::vector<Section>{lower}));
+    CHECK(!fairness.may_replace(ring, 1, 1, std::vector<Section>{past}));
+    CHECK(fairness.may_replace(ring, 0, 1, std::vector<Section>{upper, lower}));
+    CHECK(!fairness.may_replace(ring, 0, 1, std::vector<Section>{upper, past}));
 }

@@ -348,3 +348,44 @@ def test_mirrored_chains_of_lines_meet_on_the_axis(seed):
     fit = ss.fit_curve(shape.points, **options)
     assert fit.kept
     assert {piece.degree for piece in fit.pieces} == {1}
+
+
+# Ends of strokes beside themselves, one on itself; a smooth outline; weights; a comb's corners.
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [20036, 20060, 20110, 21161, 20781, 22527])
+def test_no_repair_and_no_joint_makes_a_hook(seed):
+    shape = drawn(seed)
+    asked = drawn_options(np.random.default_rng([seed, 1]), shape.points, shape.closed)
+    fit = ss.fit_curve(shape.points, **asked)
+    assert fit.kept
+    found = hooks(fit.pieces, fit.contour.points, closed=shape.closed, tolerance=fit.tolerance)
+    assert not len(found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [10450, 20405, 20599])
+def test_directions_of_weights_and_of_single_splines_do_not_matter(seed):
+    """Two strokes whose points read alike both ways, and a spline clamped at its seam."""
+    shape = drawn(seed)
+    asked = drawn_options(np.random.default_rng([seed, 1]), shape.points, shape.closed)
+    back = dict(asked)
+    if "weights" in asked:
+        back["weights"] = asked["weights"][::-1]
+    once, again = (
+        sorted(map(tuple, np.concatenate([p.control_points for p in fit.pieces]).tolist()))
+        for fit in (
+            ss.fit_curve(shape.points, **asked),
+            ss.fit_curve(shape.points[::-1], **back),
+        )
+    )
+    assert once == again
+
+
+def test_what_lies_on_itself_is_not_fitted_again_for_its_crossings():
+    x = np.linspace(0, 10, 100)
+    there = np.column_stack([x, np.sin(1.3 * x)])
+    points = np.concatenate([there, there[-2::-1]])
+    fit = ss.fit_curve(points, closed=False, tolerance=0.02)
+    alone = ss.fit_curve(there, closed=False, tolerance=0.02)
+    assert fit.kept
+    assert fit.n_stored_points <= 2 * alone.n_stored_points + 1

@@ -176,13 +176,15 @@ class NormalizedContour(NamedTuple):
         return reversed_curve(moved) if self.reversed else moved
 
 
-def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
+def canonical_reading(
+    points: FloatArray, *, closed: bool, weights: FloatArray | None = None
+) -> tuple[int, int]:
     """First index and step, 1 or -1, of an order that depends on the geometry only.
 
     Closed outlines are read from a point that is farthest from their mean, open ones from the end
     that is farther; of the ways that are left the one is taken whose distances from the mean come
-    first in the dictionary, or of equals whose coordinates do. So a turned or mirrored outline is
-    read like the outline, but for rounding.
+    first in the dictionary, or of equals whose coordinates do, or whose weights do. So a turned or
+    mirrored outline is read like the outline, but for rounding.
     """
     away = np.empty(len(points))
     _kernels.centroid_distances_sq(points, away)
@@ -193,8 +195,9 @@ def canonical_reading(points: FloatArray, *, closed: bool) -> tuple[int, int]:
     readings += [(start, -1) for start in starts if closed or start == last]
     readings = _first_in_head(away, np.array(readings))
     best = readings[0]
+    keys = (away[:, None], points) if weights is None else (away[:, None], points, weights[:, None])
     for reading in readings[1:]:
-        if _comes_first((away[:, None], points), reading, best):
+        if _comes_first(keys, reading, best):
             best = reading
     return best
 

@@ -13,6 +13,7 @@ from shapespline.geometry.distances import (
 )
 from shapespline.geometry.exact import Outlines, exact_drawing, exact_fit
 from shapespline.geometry.flattening import chords, sampled
+from shapespline.geometry.hooks import hooks
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
 from shapespline.geometry.joining import elevated, joined, turn_between
 from shapespline.geometry.lines_and_arcs import bulge_piece, bulged, lines_and_arcs
@@ -63,6 +64,7 @@ __all__ = [
     "exact_drawing",
     "exact_fit",
     "greville_matched",
+    "hooks",
     "in_unit",
     "joined",
     "lines_and_arcs",

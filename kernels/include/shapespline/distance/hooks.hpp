@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "shapespline/base/vec2.hpp"
@@ -150,5 +151,18 @@ class TurningSteps {
     Vec2 direction_{};
     std::vector<Step> steps_;
 };
+
+// Hooks of a curve, given by its chords, beside a data polyline.
+inline long count_hooks(std::span<const Vec2> chords, std::span<const Vec2> polyline,
+                        double tolerance) {
+    TurningSteps turning(tolerance);
+    for (std::size_t i = 0; i + 1 < chords.size(); ++i)
+        turning.add_line(0, chords[i], chords[i + 1]);
+    const long n = static_cast<long>(polyline.size()) - 1;
+    return turning.hooks([&](Vec2 place, long) {
+        return turn_about(
+            place, [&](long j) { return polyline[j]; }, 0, n, 0, n, turning.data_reach());
+    });
+}
 
 }  // namespace shapespline

@@ -27,18 +27,22 @@ class SectionFairness {
     // Whether the sections i0 .. i1 of a ring may become others: there are no more near-cusps and
     // hooks than before, the joints with their neighbours among them.
     bool may_replace(const SectionRing &ring, long i0, long i1, std::span<const Section> fresh) {
-        const bool alone = ring.closed() && i1 - i0 + 3 > ring.size();
-        const long before = !alone && ring.has(i0 - 1), after = !alone && ring.has(i1 + 1);
-        const std::vector<Section> old = ring.window(i0 - before, i1 + after);
+        const bool all = i1 - i0 + 1 == ring.size();
+        const long before = !all && ring.has(i0 - 1), after = !all && ring.has(i1 + 1);
+        std::vector<Section> old = ring.window(i0 - before, i1 + after);
         std::vector<Section> now(old.begin(), old.begin() + before);
         // The window of the neighbours, too, may be one lap further.
         const Index shift = old[before].first - fresh.front().first;
-        for (Section section : fresh) {
-            section.first += shift;
-            section.last += shift;
-            now.push_back(std::move(section));
-        }
+        for (const Section &section : fresh) now.push_back(moved(section, shift));
         now.insert(now.end(), old.end() - after, old.end());
+        if (ring.closed() && all)
+            for (auto *sections : {&old, &now})
+                sections->push_back(moved(sections->front(), ring.period()));
+        // More than a lap may leave the three of the data.
+        const Index n = static_cast<Index>(data_.size());
+        if (ring.closed() && now.back().last >= n)
+            for (auto *sections : {&old, &now})
+                for (Section &section : *sections) section = moved(section, -ring.period());
         const long found = n_unfair(now);
         return found == 0 || found <= n_unfair(old);
     }
@@ -63,6 +67,12 @@ class SectionFairness {
 
   private:
     static constexpr double kNearCusp = 0.02;  // of the middle speed (PIE-26)
+
+    static Section moved(Section section, Index by) {
+        section.first += by;
+        section.last += by;
+        return section;
+    }
 
     // Whether a section has a near-cusp; its steps are added.
     bool stands_still(long owner, const Section &section) {

@@ -16,6 +16,7 @@ class SectionRing {
     }
 
     bool closed() const { return period_ > 0; }
+    Index period() const { return period_; }
     long size() const { return static_cast<long>(sections_.size()); }
     const std::vector<Section> &sections() const { return sections_; }
     Section &at(long i) { return sections_[wrapped(i)]; }

@@ -275,5 +275,6 @@ def _exported(
     period = np.concatenate([[0.0], np.cumsum(np.roll(intervals, -seam))])
     knots = periodic_knots(len(points), degree, on_grid(period / period[-1]))
     points = np.roll(points, degree - seam, axis=0)
-    curve = normalized.restored_curve(BSplineCurve(knots, points, degree, periodic=True))
-    return curve if simple.any() else curve.clamped()
+    curve = BSplineCurve(knots, points, degree, periodic=True)
+    # Clamped before it is turned round: knots are inserted from one side on.
+    return normalized.restored_curve(curve if simple.any() else curve.clamped())

@@ -67,6 +67,9 @@ STEPS = (
 )
 # These methods follow the points. A curve that was estimated from noisy points would follow noise.
 FOLLOWING = ("sections", "removal")
+# Points as near to another side as this part of the size lie on it; another is a side that is
+# farther along the data than this part of the tolerance (FIT-24).
+TOUCHING, NEXT = 1e-9, 0.01
 CROSSES = "it crosses a curve where the data do not"
 # Curves of so many pieces that cross with so many of their points are given up for lines through
 # all of them at once: of scattered points each piece would be fitted again six times (FIT-21).
@@ -125,7 +128,7 @@ def _uncrossed(
     for step in (*STEPS, None):
         for owner in {owner for pair in pairs for owner in pair} - rows.keys():
             rows[owner] = begun[owner] = PieceAssignment.of(owner, fits[owner])
-        found = _crossing_parts(pairs, rows)
+        found = _crossing_parts(pairs, rows, sides)
         for owner, row in rows.items():
             count = len(found.get(owner, ()))
             if owner not in best or count < best[owner][0]:
@@ -199,9 +202,9 @@ def _told(fit: Fit) -> Fit:
 
 
 def _crossing_parts(
-    pairs: set[tuple[int, int]], rows: Mapping[int, PieceAssignment]
+    pairs: set[tuple[int, int]], rows: Mapping[int, PieceAssignment], sides: Sides
 ) -> dict[int, list[int]]:
-    """Of each contour the parts that cross others, or themselves, where no data cross."""
+    """Of each contour the parts that cross others, or themselves, where data lie apart."""
     lines = {owner: [part.line for part in row.parts] for owner, row in rows.items()}
     found: set[tuple[int, int]] = set()
     for i, j in pairs:
@@ -213,6 +216,7 @@ def _crossing_parts(
                 found |= {places[a], places[b]}
         if i == j:
             found |= {(i, k) for _, k in mine if self_crossings(lines[i][k])}
+    found = {(owner, k) for owner, k in found if not _lies_on_data(rows[owner], k, sides)}
     return {
         owner: sorted(k for other, k in found if other == owner)
         for owner in sorted({owner for owner, _ in found})
@@ -234,6 +238,18 @@ def _new_crossings(
         for index, line in enumerate(lines)
         if (count := self_crossings(line)) and count > self_crossings(data[index])
     }
+
+
+def _lies_on_data(row: PieceAssignment, at: int, sides: Sides) -> bool:
+    """Whether most points of a part lie on other sides of the data: no clearance keeps them apart.
+
+    Of a stroke that is traced there and back no count of crossings is right (FIT-24).
+    """
+    part, tolerance = row.parts[at], row.fit.tolerance
+    data = row.data.part(max(part.begin - 1, 0), part.end + 1)
+    across = sides.beside(data.points, tolerance).across(data, row.owner, NEXT * tolerance)
+    touching = np.hypot(*across.T) <= TOUCHING * np.ptp(row.data.points, axis=0).max()
+    return bool(2 * touching.sum() > len(touching))
 
 
 def _fitted_again(

@@ -13,7 +13,7 @@ from shapespline.geometry import backwards, joined, reversed_curve
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
-    from shapespline.typing import IntArray
+    from shapespline.typing import FloatArray, IntArray
     from shapespline.values import Fit
 
 
@@ -24,10 +24,16 @@ class Reading(NamedTuple):
     is_backwards: bool
 
     @classmethod
-    def of(cls, contour: Contour) -> Reading:
-        """The order of a contour."""
-        start, step = canonical_reading(contour.points, closed=contour.closed)
-        return cls((start + step * np.arange(len(contour))) % len(contour), step < 0)
+    def of(cls, contour: Contour, weights: FloatArray | None = None) -> Reading:
+        """The order of a contour, its weights deciding where its points read alike both ways.
+
+        Of such points a fit without weights has one direction only, whichever way weights run.
+        """
+        points, closed, index = contour.points, contour.closed, np.arange(len(contour))
+        start, step = _, along = canonical_reading(points, closed=closed)
+        if weights is not None:
+            start, step = canonical_reading(points, closed=closed, weights=weights)
+        return cls((start + step * index) % len(contour), along < 0)
 
     def contour(self, contour: Contour) -> Contour:
         """The contour with its points in this order."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from shapespline.fitting.repair.assignment import AssignedPiece, PieceAssignment, located, pieces_of
 from shapespline.fitting.verify import verified_fit
-from shapespline.geometry import joined, turn_between
+from shapespline.geometry import hooks, joined, turn_between
 from shapespline.values import SMOOTH_TURN, Contour
 
 if TYPE_CHECKING:
@@ -35,6 +35,11 @@ class Refit:
 
     request: Request
     ask: Callable[[Request], Fit]
+
+    @property
+    def holds_ends(self) -> bool:
+        """Whether the ends of open data are kept."""
+        return self.request.constraints.ends
 
     def __call__(
         self, contour: Contour, within: float, tangents: Tangents, through: Sequence[int]
@@ -110,17 +115,36 @@ def _window_again(
     data = row.data.part(parts[0].begin, parts[-1].end)
     points = data.points if target_points is None else target_points(row, parts, data)
     # What is so near to an outer node is kept by it, and may lie behind it.
-    beyond = _beyond(data.points, first[0], within)
-    before_last = _beyond(data.points[::-1], last[-1], within)
+    begin, beyond = first[:1], _beyond(data.points, first[0], within)
+    end, before_last = last[-1:], _beyond(data.points[::-1], last[-1], within)
+    # A free end goes with its points: held beside them it would be a hook.
+    if not row.fit.closed and not refit.holds_ends and len(points):
+        if window.begin == 0:
+            begin, beyond = points[:0], 0
+        if window.end == len(row.parts):
+            end, before_last = points[:0], 0
     inner = points[beyond : len(points) - before_last]
-    contour = Contour.silently(np.concatenate([first[:1], inner, last[-1:]]), closed=False)
-    before = parts[0].begin + beyond - 1
+    contour = Contour.silently(np.concatenate([begin, inner, end]), closed=False)
+    before = parts[0].begin + beyond - len(begin)
     among = [at - before for at in window.through if 0 < at - before <= len(inner)]
     through = contour.source[among].tolist() if among else []
-    fit = refit(contour, within, _tangents(row, window), through)
-    if not fit.kept:
-        fit = refit(contour, within, (None, None), through)
-    return located(data, pieces_of(fit), row.fit.tolerance, parts[0].begin)
+    free: Tangents = (None, None)
+    as_it_was = _hooks(row, window, parts)
+    for tangents in (_tangents(row, window), free):
+        fit = refit(contour, within, tangents, through)
+        found = located(data, pieces_of(fit), row.fit.tolerance, parts[0].begin)
+        if (fit.kept or tangents is free) and _hooks(row, window, found) <= as_it_was:
+            return found
+    return parts
+
+
+def _hooks(row: PieceAssignment, window: Window, parts: tuple[AssignedPiece, ...]) -> int:
+    """Hooks of parts in the place of a window, those where they meet its neighbours among them."""
+    beside = row.parts[max(window.begin - 1, 0) : window.begin], row.parts[window.end :][:1]
+    chain = [*beside[0], *parts, *beside[1]]
+    data = row.data.part(max(chain[0].begin - 1, 0), chain[-1].end + 1)
+    line = np.concatenate([part.line for part in chain])
+    return hooks(line, data.points, row.fit.tolerance)
 
 
 def _beyond(points: FloatArray, node: FloatArray, within: float) -> int:

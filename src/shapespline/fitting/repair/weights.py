@@ -86,9 +86,9 @@ def respect_weights(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -
     """A fit within a tolerance that comes as near to heavy points as their weights say."""
     if request.weights is None or request.tolerance is None:
         return fit
-    # In canonical order: what is held does not depend on which point of the data is the first.
-    reading = Reading.of(request.contour)
     limits = Limits.of(request.weights, request.contour, request.tolerance)
+    # In canonical order: what is held does not depend on which point of the data is the first.
+    reading = Reading.of(request.contour, limits.lengths)
     limits = limits._replace(lengths=limits.lengths[reading.order])
     asked = request.read(reading.order, is_backwards=reading.is_backwards)
     style = request.style

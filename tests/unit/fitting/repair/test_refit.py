@@ -1,5 +1,7 @@
 """Windows of pieces fitted again: which neighbours, with what held, and put back in the row."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.support.promise import SMOOTH
@@ -60,6 +62,8 @@ def test_a_closed_row_begins_away_from_what_is_fitted_again():
 class Asked:
     """Fits as it is asked to, and keeps what it was asked."""
 
+    holds_ends = False
+
     def __init__(self):
         self.calls = []
 
@@ -112,6 +116,45 @@ def test_points_of_a_window_are_gone_through_and_named_in_it():
     fitted_again(row, [Window(1, 3, 0.02, (at,))], asked)
     (given, _, _, (through,)), *_ = asked.calls
     assert given.points[through].tolist() == row.data.points[at].tolist()
+
+
+def test_a_free_end_goes_with_its_points():
+    row, asked = row_of(bounces()), Asked()
+    count = len(row.parts)
+    up = np.array([0.0, 0.01])
+    fitted_again(
+        row,
+        [Window(0, 1, 0.02), Window(count - 1, count, 0.02)],
+        asked,
+        lambda row, window, data: data.points + up,
+    )
+    (last, *_), (first, *_) = asked.calls
+    assert first.points[0].tolist() == (row.data.points[0] + up).tolist()
+    assert last.points[-1].tolist() == (row.data.points[-1] + up).tolist()
+    asked.holds_ends = True
+    fitted_again(row, [Window(0, 1, 0.02)], asked)
+    held = asked.calls[-1][0]
+    assert held.points[0].tolist() == row.parts[0].piece.control_points[0].tolist()
+
+
+@pytest.mark.parametrize("fold", [0.0, 0.02])
+def test_a_repair_that_makes_a_hook_is_not_taken(fold):
+    row = row_of(bounces())
+    at = max(range(len(row.parts)), key=lambda k: row.parts[k].end - row.parts[k].begin)
+    line = row.parts[at].line
+    step = line[51] - line[50]
+    aside = 0.01 * np.array([-step[1], step[0]]) / np.hypot(*step)
+    back = line[50] - fold * step / np.hypot(*step) + aside
+    way = np.concatenate([line[:51], [back, line[50] + 2 * aside] if fold else line[:0], line[51:]])
+    fit = ss.fit_curve(way, closed=False, tolerance=1e-6, degree=1, character="fewest")
+    answer = replace(fit, status=ss.Status.KEPT)
+
+    class Answering(Asked):
+        def __call__(self, contour, within, tangents, through):
+            return answer
+
+    again = fitted_again(row, [Window(at, at + 1, 0.02)], Answering())
+    assert (again.parts == row.parts) == bool(fold)
 
 
 def test_a_row_that_would_break_the_promise_is_not_taken():

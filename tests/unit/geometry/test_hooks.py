@@ -1,0 +1,45 @@
+"""Hooks beside data, by hand and by the outside check."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.support.shapes import flower
+
+import checks
+from shapespline.geometry import hooks
+
+STRAIGHT = np.array([(0.0, 0.0), (10.0, 0.0)])
+
+
+@pytest.mark.parametrize("tolerance", [0.05, 0.2, 1.0])
+@pytest.mark.parametrize("degrees", [60, 89, 91, 170])
+def test_a_turn_is_a_hook_beyond_a_right_angle(degrees, tolerance):
+    angle = np.radians(degrees)
+    way = np.array([(0.0, 0.0), (5.0, 0.0), (5.0 + np.cos(angle), np.sin(angle))])
+    assert hooks(way, STRAIGHT, tolerance) == (degrees > 90)
+
+
+def test_a_turn_with_the_data_is_none():
+    corner = np.array([(0.0, 0.0), (5.0, 0.0), (4.0, 1.0)])
+    assert hooks(corner, corner, 1.0) == 0
+    assert hooks(corner, STRAIGHT, 1.0) == 1
+    # A turn in steps that are longer than the tolerance is none either.
+    wide = np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 2.0), (3.0, 2.0)])
+    assert hooks(wide, STRAIGHT, 1.0) == 0
+    assert hooks(wide, np.array([(3.0, 3.0)]), 9.0) == 0
+
+
+@pytest.mark.parametrize("folded", [False, True])
+@pytest.mark.parametrize("at", [40, 55, 130, 145])
+def test_as_many_as_the_outside_check_finds(at, folded):
+    data = flower(300).polyline
+    tolerance = 0.01 * float(np.hypot(*np.ptp(data, axis=0)))
+    ahead = (data[at + 1] - data[at]) / np.hypot(*(data[at + 1] - data[at]))
+    left = np.array([-ahead[1], ahead[0]])
+    fold = data[at] + tolerance * np.array([[0.3], [0.1]]) * (left - ahead)
+    way = np.concatenate([data[: at + 1], fold if folded else fold[:0], data[at + 1 :]])
+    knots = np.concatenate([[0], np.arange(len(way)), [len(way) - 1]])
+    seen = checks.hooks((knots, way, 1), flower(300).points, closed=True, tolerance=tolerance)
+    assert bool(len(seen)) == folded
+    assert bool(hooks(way, data, tolerance)) == folded
