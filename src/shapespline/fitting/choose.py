@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 # A curve that stores more than this part of the number of points follows rough data; it tells
 # nothing of what was drawn, and lines may be the smaller (PIE-05).
 ROUGH_PART = 0.3
-# The rank of a shape as it was drawn.
-DRAWN = -1
+# The ranks of a shape as it was drawn, and of lines and arcs that only their number speaks for.
+DRAWN, FEW_DRAWN = -1, -2
 
 
 class Shortlist:
@@ -27,7 +27,8 @@ class Shortlist:
        stands in for corners of the data; it does not wave where the data do not, wherever;
     5. no corners where the data have none, if one smooth spline follows them;
     6. the fewest stored points; of curves that miss the tolerance the nearest;
-    7. the simpler structure: one spline, a symmetric one, pieces, lines, lines through all points;
+    7. the simpler structure: lines and arcs, one spline, a symmetric one, pieces, lines, a line
+       from each point to the next;
     8. the one that was found first.
     """
 
@@ -84,6 +85,8 @@ class Shortlist:
     def _makes_corners(self, verified: Verified) -> bool:
         """Whether a curve has corners where the data, which a smooth one follows, have none."""
         if not verified.fit.sections or self._problem.has_corners:
+            return False
+        if verified.candidate.rank in (DRAWN, FEW_DRAWN):  # lines and arcs that cross, no turns
             return False
         if self._problem.request.style.free or not len(verified.fit.corners):
             return False

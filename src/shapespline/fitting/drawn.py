@@ -15,7 +15,8 @@ from shapespline.engines.drawn import (
     as_drawn,
     simplified,
 )
-from shapespline.fitting.choose import DRAWN
+from shapespline.engines.pieces import MirroredHalf
+from shapespline.fitting.choose import DRAWN, FEW_DRAWN
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.verify import Candidate
 from shapespline.geometry import joined, two_sided_distance
@@ -67,6 +68,9 @@ class DrawnPieces:
         )
         if found is None or monitor.ended:
             return
+        mirrored = any(one.name == "mirror" for one in found.regularities)
+        if problem.request.symmetric and not mirrored and MirroredHalf.of(problem.thinned):
+            return
         runs = any(isinstance(part, FreeRun) for part in found.parts)
         if runs and self.shown is not None and not self.shown.clean:
             return  # noise between them is smoothed with the rest
@@ -93,7 +97,7 @@ class DrawnPieces:
             return None
         return Candidate(
             method="drawn",
-            rank=DRAWN,
+            rank=DRAWN if found.is_told else FEW_DRAWN,
             pieces=normalized.restored(pieces),
             regularities=_in_data(kept, len(pieces), normalized.scale, normalized.reversed),
         )
@@ -147,7 +151,11 @@ class DrawnPieces:
         if found.max_distance > farthest or found.reverse_distance > beyond:
             return False
         # What is left of a picture's slow errors is no noise.
-        return accuracy is not None or shown.clean or self.estimation.justifies(candidate.pieces)
+        return (
+            accuracy is not None
+            or shown.clean
+            or self.estimation.justifies(candidate.pieces, told=candidate.rank == DRAWN)
+        )
 
 
 def _in_data(

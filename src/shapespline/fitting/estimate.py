@@ -182,9 +182,9 @@ class Estimation:
         """What the points say of it."""
         return Evidence.of_spline(self.start, self.means, self.ordered)
 
-    def justifies(self, pieces: tuple[Piece, ...]) -> bool:
+    def justifies(self, pieces: tuple[Piece, ...], *, told: bool) -> bool:
         """Whether lines and arcs tell the points as well as one spline does."""
-        joints = len(pieces)  # all of them drawn, none by chance
+        joints = len(pieces) if told else 0  # all of them drawn, none by chance
         said = Evidence.of_pieces(pieces, self._degree, self.means, self.ordered, joints)
         return said.cost <= DRAWN_CHARACTER * self.smooth.cost
 

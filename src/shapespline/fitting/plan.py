@@ -16,7 +16,7 @@ from shapespline.engines.pieces import (
     in_facets,
 )
 from shapespline.fitting.arcs import LinesAndArcs
-from shapespline.fitting.choose import ROUGH_PART
+from shapespline.fitting.choose import DRAWN, ROUGH_PART
 from shapespline.fitting.drawn import DrawnPieces
 from shapespline.fitting.estimate import (
     Estimation,
@@ -81,15 +81,16 @@ def _plan_estimate(
     estimation = Estimation(problem, monitor)
     if problem.request.style.character == "drawn":
         yield DrawnPieces(ask, estimation)
-        if len(shortlist):
+        if shortlist.among(DRAWN):
             return
+    n_drawn = len(shortlist)
     if not estimation.shown.clean:
         if problem.request.style.form == "pieces":
             yield ObservedPieces(estimation)
-        if not len(shortlist):
+        if len(shortlist) == n_drawn:
             yield SmoothedSpline(estimation)
     # Points that neither comes near are no noisy curve after all.
-    if not len(shortlist):
+    if len(shortlist) == n_drawn:
         yield InBand(estimation.shown.band, ask)
 
 
@@ -110,11 +111,13 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
         return
     if request.style.character == "drawn":
         yield DrawnPieces(ask)
-        if shortlist.kept:
+        drawn = shortlist.among(DRAWN)
+        if drawn is not None and drawn.kept:
             return
     if request.is_plain and problem.looks_smooth:
         yield OneSpline(ROUGH_PART * len(problem.contour))
-        if len(shortlist) and shortlist.follows(best := shortlist.best) and not best.waves:
+        one = shortlist.among(ONE_SPLINE)
+        if one is not None and shortlist.follows(one) and not one.waves:
             return
     if not (request.style.free or request.constraints.anything) and (
         request.symmetric or request.effort != "fast"

@@ -46,6 +46,23 @@ def test_a_symmetric_outline_gets_a_symmetric_curve(angle, shift, backwards):
     assert fit.n_stored_points <= plain.n_stored_points + 6
 
 
+@pytest.mark.parametrize("angle", [0.0, 0.3])
+@pytest.mark.parametrize("options", [{}, {"character": "drawn"}])
+def test_lines_and_arcs_keep_the_mirror_too(angle, options):
+    contour = Contour(moved(keyhole(), angle), closed=True)
+    fit = fit_curve(contour, tolerance=0.02, symmetric=True, **options)
+    assert sorted(piece.kind for piece in fit.pieces) == ["arc", "line", "line", "line"]
+    assert "mirror" in {one.name for one in fit.regularities}
+
+
+def test_lines_and_arcs_without_a_mirror_give_way_to_one_that_is_asked_for():
+    points = keyhole() + np.random.default_rng(4).normal(0, 1e-3, keyhole().shape)
+    contour = Contour(points, closed=True)
+    fit = fit_curve(contour, tolerance=0.2, symmetric=True, regularities="axis-parallel")
+    mirror = find_mirror(contour)
+    assert image_error(fit, mirror) <= 0.2 * THINNING
+
+
 def test_what_is_not_symmetric_has_no_axis():
     hook = np.concatenate([keyhole(), [[9.0, 1.0], [8.0, -2.0]]])
     assert find_mirror(Contour(hook, closed=True)) is None

@@ -7,6 +7,7 @@ from benchmarks.drawn.truth import sampled
 from benchmarks.small_letters import drawn
 from tests.support.promise import checked
 from tests.support.rendering import coverage, dark, polygon
+from tests.support.shapes import moved
 
 import shapespline as ss
 
@@ -23,6 +24,44 @@ def rounded_box():
             + along * [(0, 1), (-1, 0), (0, -1), (1, 0)][corner]
         )
     return np.concatenate(parts)
+
+
+def arc(x, y, radius, begin, end, n=40):
+    """Points on an arc, angles in degrees."""
+    angle = np.radians(np.linspace(begin, end, n))
+    return np.column_stack([x + radius * np.cos(angle), y + radius * np.sin(angle)])
+
+
+OPEN_PATHS = {
+    "J": [np.linspace((0, 20), (0, 0), 40), arc(5, 0, 5, 180, 360)],
+    "two arcs": [arc(0, 5, 5, 0, 90), arc(-7, 10, 7, 0, 100)],
+    "pie": [arc(0, 0, 10, 0, 270, 150), np.linspace((0, -10), (0, 0), 20)],
+    "two edges": [np.linspace((0, 0), (5, 3), 60), np.linspace((5, 3), (9, -4), 60)],
+}
+
+
+@pytest.mark.parametrize("options", [{"tolerance": 0.03}, {}], ids=["within", "estimated"])
+@pytest.mark.parametrize("noise", [0.0, 0.005])
+@pytest.mark.parametrize("name", OPEN_PATHS)
+def test_a_few_lines_and_arcs_need_no_regularities(name, noise, options):
+    parts = OPEN_PATHS[name]
+    points = moved(np.concatenate([parts[0], parts[1][1:]]), 0.3)
+    shaken = points + np.random.default_rng(5).normal(0, noise, points.shape)
+    fit = ss.fit_curve(shaken, closed=False, **options)
+    assert fit.kept
+    kinds = {"J": ["arc", "line"], "two arcs": ["arc", "arc"], "pie": ["arc", "line"]}
+    assert sorted(piece.kind for piece in fit.pieces) == kinds.get(name, ["line", "line"])
+    # The ends are those of the data but for the noise.
+    ends = fit.curve([0.0, 1.0]) - points[[0, -1]]
+    assert np.abs(ends).max() <= 4 * noise + 1e-9
+
+
+def test_a_smooth_outline_is_no_row_of_arcs():
+    t = np.linspace(0, 2 * np.pi, 300, endpoint=False)
+    for ratio in (0.4, 0.8):
+        ellipse = moved(np.column_stack([10 * np.cos(t), 10 * ratio * np.sin(t)]), 0.3)
+        for options in ({"tolerance": 0.05}, {"tolerance": 0.4}, {}):
+            assert not any(piece.arc for piece in ss.fit_curve(ellipse, **options).pieces)
 
 
 def test_the_promise_holds_and_edges_are_level_to_the_bit():
@@ -173,7 +212,7 @@ def test_settings_survive_a_dictionary_and_bad_ones_are_refused():
         ({"character": "drawn", "form": "spline"}, "cannot act where one spline"),
         ({"character": "drawn", "tolerance": None, "sigma": 0.1}, "leave .* sigma and loss out"),
         ({"character": "drawn", "corners": "free"}, "where corners are given"),
-        ({"character": "drawn", "symmetric": True}, "cannot act where something else is kept"),
+        ({"character": "drawn", "through": [0]}, "cannot act where something else is kept"),
         ({"regularities": "mirror", "ends": "fixed"}, "regularities cannot act"),
         ({"character": "drawn", "degree": 2}, "degree must be 3 or more"),
         (

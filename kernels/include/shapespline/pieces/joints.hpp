@@ -37,9 +37,9 @@ class JointSmoother {
   private:
     // Minimax rounds of a joint (PIE-11), and points that may make one smooth (PIE-13).
     static constexpr int kRounds = 20, kStartRounds = 12, kMostRaise = 4;
-    // A joint that turns more than this, in radians, is not worth the attempt, unless it turns by
-    // as much as a hook where the data hardly do (PIE-28).
-    static constexpr double kSteepest = 0.785, kHook = 1.57;
+    // A joint that turns more than this, in radians, is not worth the attempt, unless it is a hook
+    // where the data hardly turn (PIE-28).
+    static constexpr double kSteepest = 0.785;
     // A joint that was made tangent turns less: the values' CORNER_TURN but for the fifth digit.
     static constexpr double kTangent = 1.01 / 57.3;
     static constexpr int kStrays = 3;  // rounds with stray curves (PIE-11)
@@ -83,12 +83,12 @@ class JointSmoother {
 
     void mark(long i) { ring_.at(i).tangent = i > 0 && smooth_at(i); }
 
-    bool smooth_at(long i) const {
+    bool smooth_at(long i) {
         const Section &s = ring_.at(i);
         if (s.required) return true;
         if (s.corner || !(s.curved() || ring_.at(i - 1).curved())) return false;
-        const double turn = std::fabs(ring_.turn(i));
-        return turn < kSteepest || (turn > kHook && low_turn_[ring_.origin(s)] != 0);
+        return std::fabs(ring_.turn(i)) < kSteepest ||
+               (low_turn_[ring_.origin(s)] != 0 && fairness_.n_unfair(ring_.window(i - 1, i)) > 0);
     }
 
     // Of two lines at a joint that must be tangent the one that is no virtual extension becomes a

@@ -33,7 +33,8 @@ def nodes_of(model: Model) -> dict[int, FloatArray]:
         if k in model.at and m in model.at and k != m:
             nodes[k] = meeting(model, k, m, at)
         elif k in model.at:
-            nodes[k] = onto(model, k, points[last_on(model, k)])
+            # Beside a free-form run the last points may be the run's, at an open end they are not.
+            nodes[k] = onto(model, k, at if m < 0 else points[last_on(model, k)])
         elif m in model.at:
             nodes[k] = onto(model, m, points[first_on(model, m)])
     if not model.seen.closed and 0 in model.at:

@@ -20,6 +20,7 @@ from shapespline.engines.drawn.judgement import (
     LARGEST,
     LEAST_SAID,
     is_enough,
+    is_short,
     misfitting,
     repeated,
     without_few,
@@ -87,7 +88,7 @@ def as_drawn(
     if contour.closed:
         whole = _whole_circle(_rough(seen, tolerance) or seen)
         if whole is not None:
-            return Drawn((whole,), ())
+            return Drawn((whole,), (), is_told=True)
     seen, row = _as_exact_as_drawn(seen, tolerance)
     row = supported(row, contour.closed)
     if len(row.found) > max(MANY_ELEMENTS, len(seen.points) / POINTS_EACH):
@@ -105,15 +106,15 @@ def as_drawn(
         bad = misfitting(model, tolerance)  # each alone first, which is soon done
         if not bad:
             found = Search(model, NAMES).run()
-            said = repeated(model, found)
             bad = misfitting(model, tolerance)
-            if said < LEAST_SAID * (1.0 if not bad else HOPELESS):
+            told = repeated(model, found) >= LEAST_SAID * (1.0 if not bad else HOPELESS)
+            if not told and not is_short(model):
                 return None
         if not bad:
             if set(regularities) != set(NAMES):
                 model = Model.of(seen, row, model)
                 found = Search(model, regularities).run()
-            return _drawn(model, found, tolerance)
+            return _drawn(model, found, tolerance, told)
         row = supported(_without(row, bad), contour.closed)
     return None
 
@@ -161,7 +162,7 @@ def _without(row: Segments, bad: list[int]) -> Segments:
     return row._replace(found=found)
 
 
-def _drawn(model: Model, found: list[Regularity], tolerance: float) -> Drawn:
+def _drawn(model: Model, found: list[Regularity], tolerance: float, told: bool) -> Drawn:
     """Elements between their nodes, free-form runs between them."""
     segments, nodes = model.row.found, nodes_of(model)
     n = len(segments)
@@ -189,7 +190,7 @@ def _drawn(model: Model, found: list[Regularity], tolerance: float) -> Drawn:
         parts.append(_free_run(model, k, last, nodes))
         k = last + 1
     kept = tuple(one._replace(pieces=tuple(place[s] for s in one.pieces)) for one in found)
-    return Drawn(tuple(parts), kept)
+    return Drawn(tuple(parts), kept, told)
 
 
 def _element(model: Model, k: int, begin: FloatArray, end: FloatArray) -> DrawnLine | DrawnArc:

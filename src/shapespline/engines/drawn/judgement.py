@@ -28,6 +28,8 @@ BIT_MEAN, BIT_LARGEST = 1.3, 3.0
 # Of an outline that was drawn lines and arcs make up this part, and keep so many regularities for
 # each, tangency counted half, and not beside free-form runs (DRA-08).
 LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH = 0.2, 0.65, 0.5
+# So few elements and nothing else may be what was drawn though they keep no regularities (DRA-17).
+FEW_ELEMENTS = 12
 # Between its nodes an element has at least this part of the length of its data.
 LEAST_LENGTH = 0.3
 # Measured points so few, and no farther from the elements beside them, in deviations (DRA-15).
@@ -111,6 +113,11 @@ def is_enough(model: Model) -> bool:
     """Whether lines and arcs make up enough of an outline to be what was drawn."""
     length = sum(data_length(model, k) for k in model.at)
     return bool(model.at) and length >= LEAST_SHARE * float(model.row.stations[-1])
+
+
+def is_short(model: Model) -> bool:
+    """Whether so few elements make up all of an outline that they may be fewer than curves."""
+    return len(model.at) == len(model.row.found) <= FEW_ELEMENTS
 
 
 def repeated(model: Model, found: list[Regularity]) -> float:

@@ -43,10 +43,14 @@ Part = DrawnLine | DrawnArc | FreeRun
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
-    """Parts end to end, and the regularities that they keep, by their places among the parts."""
+    """Parts end to end, and the regularities that they keep, by their places among the parts.
+
+    ``is_told`` if these are enough to tell that it was drawn so.
+    """
 
     parts: tuple[Part, ...]
     regularities: tuple[Regularity, ...]
+    is_told: bool
 
     @property
     def share(self) -> float:
