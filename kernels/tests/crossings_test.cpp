@@ -50,6 +50,23 @@ TEST(ways_through_a_vertex_cross_once_and_touching_ones_evenly) {
     CHECK(counted({{0, 0}}) == 0);
 }
 
+TEST(mirrored_ways_cross_as_often) {
+    // Vertices on a grid lie on the segments of others.
+    std::mt19937 random(3);
+    std::uniform_int_distribution<int> place(0, 6);
+    int total = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<Vec2> vertices, mirrored;
+        for (int i = 0; i < 12; ++i) {
+            vertices.push_back({double(place(random)), double(place(random))});
+            mirrored.push_back({-vertices.back().x, vertices.back().y});
+        }
+        CHECK(counted(vertices) == counted(mirrored));
+        total += counted(vertices);
+    }
+    CHECK(total > 1000);
+}
+
 TEST(pairs_of_polylines_cross_where_some_of_their_segments_do) {
     std::mt19937 random(8);
     long total = 0;

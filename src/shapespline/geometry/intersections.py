@@ -38,7 +38,8 @@ def crossing_pairs(
 def self_crossings(polyline: FloatArray) -> int:
     """Number of pairs of segments of a polyline that cross.
 
-    A way through a vertex counts once, one that only touches it not at all or twice.
+    A way through a vertex counts once, one that only touches it not at all or twice; as often for
+    the mirrored polyline.
 
     Examples
     --------

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <span>
@@ -24,9 +25,10 @@ inline bool closes(std::span<const Chord> chords) {
 }
 
 // Number of crossings among segments: a sweep over them sorted by x. A point on a segment lies to
-// the left of it, so that a way through a vertex crosses once, and one that only touches it not at
-// all or twice. Neighbours that share an end, to rounding, do not cross: the last one and the first
-// of a closed way neither.
+// one side of it, so that a way through a vertex crosses once, and one that only touches it not at
+// all or twice; of both sides the one with more counts, and mirrored segments cross as often.
+// Neighbours that share an end, to rounding, do not cross: the last one and the first of a closed
+// way neither.
 inline int count_crossings(std::span<const Chord> chords) {
     const int n = static_cast<int>(chords.size());
     struct Item {
@@ -40,22 +42,29 @@ inline int count_crossings(std::span<const Chord> chords) {
     std::sort(items.begin(), items.end(), [](const Item &a, const Item &b) {
         return a.low != b.low ? a.low < b.low : a.chord < b.chord;
     });
-    const auto crosses = [&](int i, int k) {
+    // Whether two cross if points on a segment lie to the left of it, and if to the right.
+    const auto crosses = [&](int i, int k) -> std::array<bool, 2> {
         const auto [a, b] = chords[i];
         const auto [c, d] = chords[k];
         if (std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
-            return false;
-        const auto left = [](Vec2 p, Vec2 q, Vec2 r) { return cross(q - p, r - p) >= 0.0; };
-        return left(a, b, c) != left(a, b, d) && left(c, d, a) != left(c, d, b);
+            return {false, false};
+        const auto side = [](Vec2 p, Vec2 q, Vec2 r) { return cross(q - p, r - p); };
+        const double abc = side(a, b, c), abd = side(a, b, d);
+        const double cda = side(c, d, a), cdb = side(c, d, b);
+        return {(abc >= 0.0) != (abd >= 0.0) && (cda >= 0.0) != (cdb >= 0.0),
+                (abc > 0.0) != (abd > 0.0) && (cda > 0.0) != (cdb > 0.0)};
     };
     const int most_apart = n > 0 && closes(chords) ? n - 1 : n;
-    int count = 0;
+    int left = 0, right = 0;
     for (int i = 0; i < n; ++i)
         for (int k = i + 1; k < n && items[k].low <= items[i].high; ++k) {
             const int apart = std::abs(items[i].chord - items[k].chord);
-            if (apart > 1 && apart < most_apart && crosses(items[i].chord, items[k].chord)) ++count;
+            if (apart <= 1 || apart >= most_apart) continue;
+            const auto [on_left, on_right] = crosses(items[i].chord, items[k].chord);
+            left += on_left;
+            right += on_right;
         }
-    return count;
+    return std::max(left, right);
 }
 
 // Of a polyline with itself.
