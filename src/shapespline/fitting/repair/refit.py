@@ -124,9 +124,10 @@ def _window_again(
         if window.end == len(row.parts):
             end, before_last = points[:0], 0
     inner = points[beyond : len(points) - before_last]
-    contour = Contour.silently(np.concatenate([begin, inner, end]), closed=False)
+    row_of_points = np.concatenate([begin, inner, end])
+    contour = Contour.silently(row_of_points, closed=False)
     before = parts[0].begin + beyond - len(begin)
-    among = [at - before for at in window.through if 0 < at - before <= len(inner)]
+    among = [at - before for at in window.through if 0 < at - before < len(row_of_points) - 1]
     through = contour.source[among].tolist() if among else []
     free: Tangents = (None, None)
     as_it_was = _hooks(row, window, parts)

@@ -118,6 +118,17 @@ def test_points_of_a_window_are_gone_through_and_named_in_it():
     assert given.points[through].tolist() == row.data.points[at].tolist()
 
 
+def test_points_at_free_ends_are_ends_already():
+    row, asked = row_of(bounces()), Asked()
+    count, n = len(row.parts), len(row.data.points)
+    inside = n - 5
+    fitted_again(row, [Window(count - 1, count, 0.02, (inside, n - 1))], asked)
+    fitted_again(row, [Window(0, 1, 0.02, (0, 4))], asked)
+    (last, _, _, (one,)), (first, _, _, (other,)) = asked.calls
+    assert last.points[one].tolist() == row.data.points[inside].tolist()
+    assert first.points[other].tolist() == row.data.points[4].tolist()
+
+
 def test_a_free_end_goes_with_its_points():
     row, asked = row_of(bounces()), Asked()
     count = len(row.parts)
