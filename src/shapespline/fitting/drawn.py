@@ -65,6 +65,7 @@ class DrawnPieces:
             None if accuracy is None else accuracy * scale,
             style.regularities,
             np.inf if self.shown is not None else within * scale,
+            holds_ends=problem.request.constraints.ends,
         )
         if found is None or monitor.ended:
             return
@@ -98,7 +99,7 @@ class DrawnPieces:
         return Candidate(
             method="drawn",
             rank=DRAWN if found.is_told else FEW_DRAWN,
-            pieces=normalized.restored(pieces),
+            pieces=_with_ends(normalized.restored(pieces), problem),
             regularities=_in_data(kept, len(pieces), normalized.scale, normalized.reversed),
         )
 
@@ -156,6 +157,22 @@ class DrawnPieces:
             or shown.clean
             or self.estimation.justifies(candidate.pieces, told=candidate.rank == DRAWN)
         )
+
+
+def _with_ends(pieces: tuple[Piece, ...], problem: Problem) -> tuple[Piece, ...]:
+    """Pieces in the data's unit, their ends the data's to the bit where they are kept."""
+    if problem.contour.closed or not problem.request.constraints.ends:
+        return pieces
+    points = [piece.control_points.copy() for piece in pieces]
+    for k, end, way in ((0, 0, 1), (len(pieces) - 1, -1, -1)):
+        own, given, other = points[k], problem.contour.points[end], -1 - end
+        level = own[0] == own[-1] if pieces[k].kind == "line" else np.zeros(2, dtype=bool)
+        own[end] = given
+        if 0 <= k + way < len(pieces):  # a level edge stays level to the bit
+            own[other, level] = points[k + way][end, level] = given[level]
+    return tuple(
+        piece._replace(control_points=own) for piece, own in zip(pieces, points, strict=True)
+    )
 
 
 def _in_data(

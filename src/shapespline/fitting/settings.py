@@ -228,10 +228,10 @@ class Settings:
             raise InvalidInputError(
                 f"{said} cannot act where corners are given: leave corners='auto' as it is"
             )
-        if self._has("end_tangents", "through") or self.ends == "fixed":
+        if self._has("end_tangents", "through"):
             raise InvalidInputError(
-                f"{said} cannot act where something else is kept: leave end_tangents, through"
-                " and ends='fixed' out"
+                f"{said} cannot act where something else is kept: leave end_tangents and through"
+                " out"
             )
 
     @property
@@ -239,7 +239,7 @@ class Settings:
         """Whether lines and arcs come first: where that is said, or nothing speaks against it."""
         if self.character is not None:
             return self.character == "drawn"
-        kept = self._has("end_tangents", "through") or self.ends == "fixed"
+        kept = self._has("end_tangents", "through")
         finds_corners = isinstance(self.corners, str) and self.corners == "auto"
         kept = kept or self.smoothness == 2
         return self.degree >= 3 and finds_corners and not (self._one_spline or kept)

@@ -56,6 +56,39 @@ def test_a_few_lines_and_arcs_need_no_regularities(name, noise, options):
     assert np.abs(ends).max() <= 4 * noise + 1e-9
 
 
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("name", ["J", "two arcs", "pie"])
+def test_fixed_ends_are_those_of_the_data_to_the_bit(name, seed):
+    parts = OPEN_PATHS[name]
+    points = np.concatenate([parts[0], parts[1][1:]]) + 10.0 * seed
+    shaken = points + np.random.default_rng(seed).normal(0, 0.008, points.shape)
+    fit = ss.fit_curve(shaken, closed=False, ends="fixed", tolerance=0.05)
+    assert fit.kept
+    assert fit.method == "drawn"
+    ends = [fit.pieces[0].control_points[0], fit.pieces[-1].control_points[-1]]
+    assert np.array_equal(ends, shaken[[0, -1]])
+    for one in fit.regularities:
+        if one.name == "axis-parallel":
+            begin, end = fit.pieces[one.pieces[0]].control_points
+            assert (begin == end).any()
+    for before, after in zip(fit.pieces[:-1], fit.pieces[1:], strict=True):
+        assert np.array_equal(before.control_points[-1], after.control_points[0])
+
+
+def test_a_free_form_run_keeps_fixed_ends_too():
+    t = np.linspace(0, 1, 80)
+    wave = np.column_stack([10 * t, np.sin(6 * t) * (1 + t)])
+    box = np.array([(10, -5), (30, -5), (30, 15), (0, 15), (0, 25), (20, 25)], dtype=float)
+    edges = [np.linspace(a, b, 60)[1:] for a, b in zip([wave[-1], *box[:-1]], box, strict=True)]
+    points = np.concatenate([wave, *edges])
+    for data in (points, points[::-1]):
+        fit = ss.fit_curve(data, closed=False, ends="fixed", tolerance=0.1)
+        assert fit.method == "drawn"
+        assert "spline" in {piece.kind for piece in fit.pieces}
+        ends = [fit.pieces[0].control_points[0], fit.pieces[-1].control_points[-1]]
+        assert np.array_equal(ends, data[[0, -1]])
+
+
 def test_a_smooth_outline_is_no_row_of_arcs():
     t = np.linspace(0, 2 * np.pi, 300, endpoint=False)
     for ratio in (0.4, 0.8):
@@ -177,7 +210,6 @@ def test_drawn_is_the_default_where_it_acts():
         {"corners": [3]},
         {"form": "spline"},
         {"weights": np.ones(9)},
-        {"ends": "fixed"},
         {"through": [3]},
         {"degree": 2},
         {"character": "fewest"},
@@ -213,7 +245,7 @@ def test_settings_survive_a_dictionary_and_bad_ones_are_refused():
         ({"character": "drawn", "tolerance": None, "sigma": 0.1}, "leave .* sigma and loss out"),
         ({"character": "drawn", "corners": "free"}, "where corners are given"),
         ({"character": "drawn", "through": [0]}, "cannot act where something else is kept"),
-        ({"regularities": "mirror", "ends": "fixed"}, "regularities cannot act"),
+        ({"regularities": "mirror", "through": [0]}, "regularities cannot act"),
         ({"character": "drawn", "degree": 2}, "degree must be 3 or more"),
         (
             {"character": "fewest", "regularities": None},

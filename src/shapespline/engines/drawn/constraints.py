@@ -125,6 +125,30 @@ class CirclesTouch:
 
 
 @dataclass(frozen=True)
+class PassesThrough:
+    """A line or a circle with unknowns at ``a`` goes through a point."""
+
+    a: int
+    is_line: bool
+    point: tuple[float, float]
+
+    @property
+    def index(self) -> tuple[int, ...]:
+        """The unknowns that it joins."""
+        return tuple(range(self.a, self.a + (2 if self.is_line else 3)))
+
+    def value(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """h, and its Jacobian."""
+        own, (px, py) = [float(x[i]) for i in self.index], self.point
+        if self.is_line:
+            c, s = cos(own[0]), sin(own[0])
+            return np.array([c * py - s * px - own[1]]), np.array([[-c * px - s * py, -1.0]])
+        ux, uy = px - own[0], py - own[1]
+        far = max(hypot(ux, uy), 1e-300)
+        return np.array([far - own[2]]), np.array([[-ux / far, -uy / far, -1.0]])
+
+
+@dataclass(frozen=True)
 class Images:
     """The elements at ``b`` are the images of those at ``a``: turned about a centre, or mirrored.
 

@@ -37,7 +37,11 @@ def nodes_of(model: Model) -> dict[int, FloatArray]:
             nodes[k] = onto(model, k, at if m < 0 else points[last_on(model, k)])
         elif m in model.at:
             nodes[k] = onto(model, m, points[first_on(model, m)])
-    if not model.seen.closed and 0 in model.at:
+    if model.ends is not None:
+        for k, own, end in zip((-1, n - 1), (0, n - 1), model.ends, strict=True):
+            if own in model.at:  # which goes through it but for rounding
+                nodes[k] = onto(model, own, end)
+    elif not model.seen.closed and 0 in model.at:
         nodes[-1] = onto(model, 0, points[0])
     elif model.seen.closed and n - 1 in nodes:
         nodes[-1] = nodes[n - 1]

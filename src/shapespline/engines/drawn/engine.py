@@ -60,6 +60,8 @@ def as_drawn(
     accuracy: float | None = None,
     regularities: Collection[str] = NAMES,
     tolerance: float = np.inf,
+    *,
+    holds_ends: bool = False,
 ) -> Drawn | None:
     """Lines, arcs and free-form runs of a contour; None if it tells no lines and arcs.
 
@@ -72,6 +74,8 @@ def as_drawn(
         Those that may be taken.
     tolerance : float
         Elements farther from their data are none.
+    holds_ends : bool
+        Whether an open outline begins and ends in its first and last point.
 
     Examples
     --------
@@ -98,6 +102,8 @@ def as_drawn(
     model = None
     for _ in range(min(len(row.found), MOST_ROUNDS)):
         model = Model.of(seen, row, model)
+        if holds_ends and not contour.closed:
+            model.hold(*contour.points[[0, -1]])
         if not is_enough(model):
             return None
         if (fewer := without_few(model)) is not None:
@@ -113,6 +119,8 @@ def as_drawn(
         if not bad:
             if set(regularities) != set(NAMES):
                 model = Model.of(seen, row, model)
+                if holds_ends and not contour.closed:
+                    model.hold(*contour.points[[0, -1]])
                 found = Search(model, regularities).run()
             return _drawn(model, found, tolerance, told)
         row = supported(_without(row, bad), contour.closed)
@@ -216,6 +224,10 @@ def _free_run(model: Model, k: int, last: int, nodes: dict[int, FloatArray]) -> 
         right = row.points[row.found[after].begin + 1 : first_on(model, after) + 1]
         points = np.concatenate([points, right])
     points = points.copy()
+    if model.ends is not None and k == 0:
+        points[0] = model.ends[0]
+    if model.ends is not None and last == n - 1:
+        points[-1] = model.ends[1]
     tangents: list[FloatArray | None] = [None, None]
     reach = min(DIRECTION_STEPS, len(points) - 1)
     if before in model.at:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.engines.drawn.constraints import equations
+from shapespline.engines.drawn.constraints import PassesThrough, equations
 from shapespline.engines.drawn.segments import ARC, FREE, LINE, PRICE, SHORTEST_STEPS
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class Model:
     """Elements of an outline: lines (direction, offset) and circles (centre, radius).
 
     ``at[k]`` is where the unknowns of segment k begin in ``x``; ``ways[k]`` is 1 for arcs that turn
-    left, else -1.
+    left, else -1. ``ends`` are those of an open outline, where they are held.
     """
 
     seen: Observed
@@ -76,6 +76,7 @@ class Model:
     constraints: list[Constraint] = field(default_factory=list)
     alone: dict[Key, list[float]] = field(default_factory=dict)
     beside: set[Key] = field(default_factory=set)
+    ends: tuple[FloatArray, FloatArray] | None = None
 
     @classmethod
     def of(cls, seen: Observed, row: Segments, before: Model | None = None) -> Model:
@@ -100,6 +101,14 @@ class Model:
                 model.ways[k] = _way(row.points[i : j + 1], np.array(x[-3:-1]))
         model.x = np.array(x)
         return model
+
+    def hold(self, begin: FloatArray, end: FloatArray) -> None:
+        """Let the first and the last element of an open outline go through these points."""
+        self.ends = begin, end
+        for k, (px, py) in ((0, begin), (len(self.row.found) - 1, end)):
+            if k in self.at:
+                point = float(px), float(py)
+                self.constraints.append(PassesThrough(self.at[k], self.kind(k) == LINE, point))
 
     def kind(self, k: int) -> int:
         """What segment k is."""
