@@ -86,7 +86,7 @@ class Shortlist:
         """Whether a curve has corners where the data, which a smooth one follows, have none."""
         if not verified.fit.sections or self._problem.has_corners:
             return False
-        if verified.candidate.rank in (DRAWN, FEW_DRAWN):  # lines and arcs that cross, no turns
+        if verified.candidate.rank in (DRAWN, FEW_DRAWN):  # its corners are where edges meet
             return False
         if self._problem.request.style.free or not len(verified.fit.corners):
             return False

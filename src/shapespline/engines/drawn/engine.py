@@ -99,11 +99,10 @@ def as_drawn(
         return None
     if contour.closed and len(row.found) == 1:  # an arc that is no circle
         return None
+    ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
     model = None
     for _ in range(min(len(row.found), MOST_ROUNDS)):
-        model = Model.of(seen, row, model)
-        if holds_ends and not contour.closed:
-            model.hold(*contour.points[[0, -1]])
+        model = Model.of(seen, row, model, ends)
         if not is_enough(model):
             return None
         if (fewer := without_few(model)) is not None:
@@ -118,9 +117,7 @@ def as_drawn(
                 return None
         if not bad:
             if set(regularities) != set(NAMES):
-                model = Model.of(seen, row, model)
-                if holds_ends and not contour.closed:
-                    model.hold(*contour.points[[0, -1]])
+                model = Model.of(seen, row, model, ends)
                 found = Search(model, regularities).run()
             return _drawn(model, found, tolerance, told)
         row = supported(_without(row, bad), contour.closed)

@@ -65,7 +65,8 @@ class Model:
     """Elements of an outline: lines (direction, offset) and circles (centre, radius).
 
     ``at[k]`` is where the unknowns of segment k begin in ``x``; ``ways[k]`` is 1 for arcs that turn
-    left, else -1. ``ends`` are those of an open outline, where they are held.
+    left, else -1. ``ends`` (2, 2) are those of an open outline, where they are held: the first and
+    the last element pass through them.
     """
 
     seen: Observed
@@ -76,12 +77,18 @@ class Model:
     constraints: list[Constraint] = field(default_factory=list)
     alone: dict[Key, list[float]] = field(default_factory=dict)
     beside: set[Key] = field(default_factory=set)
-    ends: tuple[FloatArray, FloatArray] | None = None
+    ends: FloatArray | None = None
 
     @classmethod
-    def of(cls, seen: Observed, row: Segments, before: Model | None = None) -> Model:
+    def of(
+        cls,
+        seen: Observed,
+        row: Segments,
+        before: Model | None = None,
+        ends: FloatArray | None = None,
+    ) -> Model:
         """Each element fitted alone; what an earlier model of the same points knows is taken."""
-        model = cls(seen, row)
+        model = cls(seen, row, ends=ends)
         if before is not None:
             model.alone, model.beside = before.alone, before.beside
         x: list[float] = []
@@ -100,15 +107,12 @@ class Model:
             if kind == ARC:
                 model.ways[k] = _way(row.points[i : j + 1], np.array(x[-3:-1]))
         model.x = np.array(x)
+        if ends is not None:
+            for k, (px, py) in zip((0, len(row.found) - 1), ends.tolist(), strict=True):
+                if k in model.at:
+                    held = PassesThrough(model.at[k], model.kind(k) == LINE, (px, py))
+                    model.constraints.append(held)
         return model
-
-    def hold(self, begin: FloatArray, end: FloatArray) -> None:
-        """Let the first and the last element of an open outline go through these points."""
-        self.ends = begin, end
-        for k, (px, py) in ((0, begin), (len(self.row.found) - 1, end)):
-            if k in self.at:
-                point = float(px), float(py)
-                self.constraints.append(PassesThrough(self.at[k], self.kind(k) == LINE, point))
 
     def kind(self, k: int) -> int:
         """What segment k is."""

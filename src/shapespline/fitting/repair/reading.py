@@ -29,11 +29,11 @@ class Reading(NamedTuple):
 
         Of such points a fit without weights has one direction only, whichever way weights run.
         """
-        points, closed, index = contour.points, contour.closed, np.arange(len(contour))
-        start, step = _, along = canonical_reading(points, closed=closed)
-        if weights is not None:
-            start, step = canonical_reading(points, closed=closed, weights=weights)
-        return cls((start + step * index) % len(contour), along < 0)
+        points, closed = contour.points, contour.closed
+        _, direction = canonical_reading(points, closed=closed)
+        start, step = canonical_reading(points, closed=closed, weights=weights)
+        order = (start + step * np.arange(len(contour))) % len(contour)
+        return cls(order, direction < 0)
 
     def contour(self, contour: Contour) -> Contour:
         """The contour with its points in this order."""
