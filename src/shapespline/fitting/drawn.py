@@ -69,7 +69,8 @@ class DrawnPieces:
         )
         if found is None or monitor.ended:
             return
-        mirrored = any(one.name == "mirror" for one in found.regularities)
+        # A whole circle is its own mirror image.
+        mirrored = len(found.parts) == 1 or any(one.name == "mirror" for one in found.regularities)
         if problem.request.symmetric and not mirrored and MirroredHalf.of(problem.thinned):
             return
         runs = any(isinstance(part, FreeRun) for part in found.parts)

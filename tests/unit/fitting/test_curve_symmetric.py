@@ -55,8 +55,15 @@ def test_lines_and_arcs_keep_the_mirror_too(angle, options):
     assert "mirror" in {one.name for one in fit.regularities}
 
 
+def test_a_circle_is_its_own_mirror_image():
+    t = np.linspace(0, 2 * np.pi, 100, endpoint=False)
+    circle = Contour(np.column_stack([np.cos(t), np.sin(t)]), closed=True)
+    (piece,) = fit_curve(circle, tolerance=0.01, symmetric=True).pieces
+    assert piece.arc is not None
+
+
 def test_lines_and_arcs_without_a_mirror_give_way_to_one_that_is_asked_for():
-    points = keyhole() + np.random.default_rng(4).normal(0, 1e-3, keyhole().shape)
+    points = keyhole() + np.random.default_rng(4).normal(0, 5e-3, keyhole().shape)
     contour = Contour(points, closed=True)
     fit = fit_curve(contour, tolerance=0.2, symmetric=True, regularities="axis-parallel")
     mirror = find_mirror(contour)
