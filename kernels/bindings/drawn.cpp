@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "shapespline/drawn/conditioning.hpp"
+#include "shapespline/drawn/elements.hpp"
 #include "shapespline/drawn/elimination.hpp"
 #include "shapespline/drawn/segmentation.hpp"
 
@@ -42,14 +44,63 @@ void bind_drawn(nb::module_ &m) {
         "points"_a.noconvert(), "stations"_a.noconvert(), "weights"_a.noconvert(),
         "candidates"_a.noconvert(), "nodes"_a.noconvert(), "settings"_a);
     m.def(
-        "taubin_circle",
+        "line_through",
         [](In2 points, In1 weights) {
-            const drawn::PrefixMoments moments(vectors(points), numbers(weights));
-            const drawn::CentralMoments central(moments.of(0, points.shape(0) - 1));
-            const drawn::CircleFit found = drawn::fit_circle(central);
-            return std::tuple{found.centre.x, found.centre.y, found.radius, found.sum_sq};
+            return drawn::line_through(vectors(points), numbers(weights));
         },
         "points"_a.noconvert(), "weights"_a.noconvert());
+    m.def(
+        "circle_through",
+        [](In2 points, In1 weights) {
+            const auto [centre, radius] = drawn::circle_through(vectors(points), numbers(weights));
+            return std::tuple{centre.x, centre.y, radius};
+        },
+        "points"_a.noconvert(), "weights"_a.noconvert());
+    nb::class_<drawn::Elements>(m, "Elements")
+        .def(
+            "__init__",
+            [](drawn::Elements *made, const std::vector<bool> &is_line,
+               std::vector<std::int64_t> at, std::vector<std::int64_t> begins, In2 points,
+               In1 weights, double deviation) {
+                const auto data = vectors(points);
+                const auto weighed = numbers(weights);
+                new (made) drawn::Elements({is_line.begin(), is_line.end()}, std::move(at),
+                                           std::move(begins), {data.begin(), data.end()},
+                                           {weighed.begin(), weighed.end()}, deviation);
+            },
+            "is_line"_a, "at"_a, "begins"_a, "points"_a.noconvert(), "weights"_a.noconvert(),
+            "deviation"_a)
+        .def(
+            "normal",
+            [](const drawn::Elements &self, In1 x, Out2 matrix, Out1 gradient) {
+                std::vector<std::tuple<double, double, double>> misfits;
+                for (const drawn::Misfit &one : self.normal(
+                         numbers(x), {matrix.data(), matrix.size()}, numbers(gradient)))
+                    misfits.emplace_back(one.chi_sq, one.weight, one.largest);
+                return misfits;
+            },
+            "x"_a.noconvert(), "matrix"_a.noconvert(), "gradient"_a.noconvert())
+        .def(
+            "covariance",
+            [](const drawn::Elements &self, In1 x, Rows floors, Out2 covariance, Out2 precision) {
+                self.covariance(numbers(x), {floors.data(), floors.size()},
+                                {covariance.data(), covariance.size()},
+                                {precision.data(), precision.size()});
+            },
+            "x"_a.noconvert(), "floors"_a.noconvert(), "covariance"_a.noconvert(),
+            "precision"_a.noconvert());
+    nb::class_<drawn::EquationLimits>(m, "EquationLimits")
+        .def(nb::init<double, double, double, double, double, double>(), nb::kw_only(),
+             "largest"_a, "largest_each"_a, "span"_a, "least_surprise"_a, "implied"_a, "met"_a);
+    m.def(
+        "take_equation",
+        [](Out1 x, Out2 covariance, const std::vector<std::int64_t> &index, In1 values, Rows rows,
+           const drawn::EquationLimits &limits) {
+            return drawn::take_equation(numbers(x), {covariance.data(), covariance.size()}, index,
+                                        numbers(values), {rows.data(), rows.size()}, limits);
+        },
+        "x"_a.noconvert(), "covariance"_a.noconvert(), "index"_a, "values"_a.noconvert(),
+        "rows"_a.noconvert(), "limits"_a);
     m.def(
         "null_space",
         [](In1 values, Rows rows, In1 units, double implied, Out1 onto, Out2 basis) {

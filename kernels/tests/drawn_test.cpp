@@ -2,6 +2,8 @@
 #include <numbers>
 
 #include "check.hpp"
+#include "shapespline/drawn/conditioning.hpp"
+#include "shapespline/drawn/elements.hpp"
 #include "shapespline/drawn/elimination.hpp"
 #include "shapespline/drawn/segmentation.hpp"
 
@@ -95,4 +97,57 @@ TEST(steps_that_meet_equations_are_one_and_a_basis_of_all) {
     CHECK(std::count(free.begin(), free.end(), 1) == 1);
     CHECK(onto[0] + onto[1] == 1.0 && onto[2] == 2.0);
     for (int j = 0; j < 3; ++j) CHECK(basis[j] + basis[3 + j] == 0.0 && basis[6 + j] == 0.0);
+}
+
+TEST(lines_and_circles_through_their_points_are_theirs) {
+    std::vector<Vec2> edge;
+    for (int i = 0; i < 20; ++i) edge.push_back({1e3 - 0.5 * i, 7.0});
+    const auto [direction, offset] = line_through(edge, std::vector<double>(20, 1.0));
+    CHECK_NEAR(std::abs(direction), std::numbers::pi, 1e-15);  // travelled to the left
+    CHECK_NEAR(offset, -7.0, 1e-12);
+    const auto points = arc({500.0, -20.0}, 60.0, 0.4, 0.3, 30);
+    const auto [centre, radius] = circle_through(points, std::vector<double>(30, 1.0));
+    // A sagitta of 0.67 known to rounding, eps * 500, magnified by 8 (radius / chord)^2.
+    CHECK_NEAR(centre.x, 500.0, 1e-9);
+    CHECK_NEAR(centre.y, -20.0, 1e-9);
+    CHECK_NEAR(radius, 60.0, 1e-9);
+}
+
+TEST(normal_equations_are_the_derivatives_of_half_of_chi_squared) {
+    auto points = arc({0.3, -0.2}, 0.6, 0.4, 0.8, 30);
+    for (int i = 0; i < 10; ++i) points.push_back({0.1 * i, 0.01 * i * i});
+    std::vector<double> weights(40, 1.0);
+    weights[35] = 0.25;
+    const Elements both({0, 1}, {0, 3}, {0, 30}, points, weights, 0.5);
+    const std::vector<double> x{0.31, -0.18, 0.57, 0.3, -0.1};
+    const auto half = [&](std::vector<double> at, std::size_t i, double step) {
+        at[i] += step;
+        std::vector<double> matrix(25), gradient(5);
+        double sum = 0.0;
+        for (const Misfit &one : both.normal(at, matrix, gradient)) sum += 0.5 * one.chi_sq;
+        return sum;
+    };
+    std::vector<double> matrix(25), gradient(5);
+    const auto misfits = both.normal(x, matrix, gradient);
+    CHECK_NEAR(misfits[1].weight, 9.25, 1e-15);
+    const double h = 1e-5;  // errors: h^2 times third derivatives of order 100, rounding over h
+    for (std::size_t i = 0; i < 5; ++i)
+        CHECK_NEAR(gradient[i], (half(x, i, h) - half(x, i, -h)) / (2 * h), 1e-7);
+}
+
+TEST(an_equation_that_holds_conditions_the_estimate) {
+    // Two unknowns, correlated, said to be equal: the mean that their covariance weighs.
+    std::vector<double> x{1.0, 1.5}, covariance{1.0, 0.2, 0.2, 0.5};
+    const std::vector<std::int64_t> index{0, 1};
+    const std::vector<double> values{-0.5, -0.5}, rows{1.0, -1.0, 1.0, -1.0};
+    const EquationLimits limits{9.0, 0.75, 0.0, 1.0, 1e-10, 1e-12};
+    CHECK(take_equation(x, covariance, index, values, rows, limits));  // the second row follows
+    // By hand: gain (0.8, -0.3), variance 1.1.
+    CHECK_NEAR(x[0], 1.0 + 0.8 * 0.5 / 1.1, 1e-15);
+    CHECK_NEAR(x[1], 1.5 - 0.3 * 0.5 / 1.1, 1e-15);
+    for (const double c : covariance) CHECK_NEAR(c, 1.0 - 0.64 / 1.1, 1e-15);
+    // They are equal now; that they differ by one is refused, and nothing changes.
+    const auto before = x;
+    CHECK(!take_equation(x, covariance, index, std::vector{-1.0}, std::vector{1.0, -1.0}, limits));
+    CHECK(x == before);
 }

@@ -1,7 +1,7 @@
 # The compiled loops (kernels/bindings). They check and convert nothing: arrays must be
 # C-contiguous float64 (first: int64) of the shapes said here, outputs are written in place.
 # nc = len(knots) - degree - 1 unrolled coefficients, m distinct control points, n data points.
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from shapespline.typing import FloatArray, IntArray
 
@@ -312,10 +312,60 @@ def drawn_pieces(
     nodes: IntArray,  # empty: all points
     settings: SegmentationSettings,
 ) -> tuple[list[tuple[int, int, int]], float]: ...  # begin, end, kind of each; the cost
-def taubin_circle(
-    points: FloatArray,  # (n, 2) within [-1, 1]
+def line_through(
+    points: FloatArray,  # (n, 2)
     weights: FloatArray,  # (n,)
-) -> tuple[float, float, float, float]: ...  # centre, radius (0: a line), sum of squared distances
+) -> tuple[float, float]: ...  # direction of travel, offset along the left normal
+def circle_through(
+    points: FloatArray,  # (n, 2)
+    weights: FloatArray,  # (n,)
+) -> tuple[float, float, float]: ...  # centre, radius
+
+# Element k has the unknowns from at[k] on and the points from begins[k] up to begins[k + 1].
+class Elements:
+    def __init__(
+        self,
+        is_line: list[bool],
+        at: list[int],
+        begins: list[int],
+        points: FloatArray,  # (n, 2)
+        weights: FloatArray,  # (n,)
+        deviation: float,
+    ) -> None: ...
+    def normal(
+        self,
+        x: FloatArray,  # (n,)
+        matrix: FloatArray,  # (n, n), added to
+        gradient: FloatArray,  # (n,), added to
+    ) -> list[tuple[float, float, float]]: ...  # chi squared, sum of weights, largest distance
+    def covariance(
+        self,
+        x: FloatArray,  # (n,)
+        floors: FloatArray,  # (n_elements, 3), systematic errors of their unknowns
+        covariance: FloatArray,  # (n, n), blocks written
+        precision: FloatArray,  # (n, n), blocks written
+    ) -> None: ...
+
+class EquationLimits:
+    def __init__(
+        self,
+        *,
+        largest: float,  # squared standard errors that one row may be off by
+        largest_each: float,  # the part of it that each of several rows has
+        span: float,  # 0: it need not be a surprise
+        least_surprise: float,  # nats
+        implied: float,  # part of a variance
+        met: float,
+    ) -> None: ...
+
+def take_equation(
+    x: FloatArray,  # (n,), changed if the equation holds
+    covariance: FloatArray,  # (n, n), changed if it does
+    index: Sequence[int],  # unknowns that it joins
+    values: FloatArray,  # (m,)
+    rows: FloatArray,  # (m, len(index))
+    limits: EquationLimits,
+) -> bool: ...
 def null_space(
     values: FloatArray,  # (m,)
     rows: FloatArray,  # (m, n)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.engines.drawn.joints import unit_of
-from shapespline.engines.drawn.regularities import LARGEST, LEAST_SURPRISE
+from shapespline.engines.drawn.regularities import EACH_OF_SEVERAL, LARGEST, LEAST_SURPRISE
 from shapespline.values import Regularity
 
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     from shapespline.typing import FloatArray
 
-# Of the square of an error that one equation may have each of several may have this part (DRA-12).
-EACH_OF_SEVERAL = 0.75
 # Angles of a ring's centres may be off by this part of a step; those of a row by this (DRA-12).
 RING, ROW = 0.1, 0.1
 

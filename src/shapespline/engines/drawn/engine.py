@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.engines.drawn.ends import (
     SMOOTH_END,
     cut_off,
@@ -25,7 +26,7 @@ from shapespline.engines.drawn.judgement import (
     repeated,
     without_few,
 )
-from shapespline.engines.drawn.model import Model, circle_of
+from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES, Search
@@ -146,8 +147,7 @@ def _as_exact_as_drawn(seen: Observed, tolerance: float) -> tuple[Observed, Segm
 def _whole_circle(seen: Observed) -> DrawnArc | None:
     """All points as one circle."""
     points = seen.points
-    weights = np.ones(len(points))
-    cx, cy, r = circle_of(points, weights)
+    cx, cy, r = _kernels.circle_through(points, np.ones(len(points)))
     off = np.hypot(points[:, 0] - cx, points[:, 1] - cy) - r
     most = ROUND if seen.pixel else ROUND_OF_POINTS
     if float(np.sqrt((off**2).mean())) > most * seen.largest_deviation:

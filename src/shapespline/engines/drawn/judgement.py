@@ -46,11 +46,9 @@ def misfitting(model: Model, tolerance: float) -> list[int]:
     bad: list[tuple[float, int]] = []
     sigma = model.seen.largest_deviation
     for k, misfit in model.misfits().items():
-        points, _ = model.counted(k)
-        off = np.abs(off_by(model, k, points))
         mean = misfit.mean * model.seen.deviation / sigma
         most = (BIT_MEAN, BIT_LARGEST) if model.seen.one_bit else (MEAN, LARGEST)
-        far = max(mean / most[0], float(off.max()) / min(most[1] * sigma, tolerance))
+        far = max(mean / most[0], misfit.largest / min(most[1] * sigma, tolerance))
         if far > 1.0:
             bad.append((far, k))
     if bad:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from shapespline.engines.drawn.constraints import Constraint
     from shapespline.engines.drawn.observed import Observed
     from shapespline.engines.drawn.segments import Segments
-    from shapespline.typing import FloatArray, IntArray
+    from shapespline.typing import FloatArray
 
 # Rounds, and the step that ends them in parts of the extent.
 ROUNDS, LEAST_STEP = 8, 1e-11
@@ -37,27 +37,16 @@ Key: TypeAlias = tuple[int, int, int]
 
 
 class Misfit(NamedTuple):
-    """Of one element: chi squared, and the sum of weights."""
+    """Of one element: chi squared, the sum of weights, the largest distance of a point."""
 
     chi_sq: float
     weight: float
+    largest: float
 
     @property
     def mean(self) -> float:
         """Root mean square in deviations."""
         return float(np.sqrt(self.chi_sq / max(self.weight, 1e-9)))
-
-
-class _Group(NamedTuple):
-    """Elements of one kind: where their unknowns are, their points end to end, whose each is."""
-
-    is_line: bool
-    segments: list[int]
-    at: IntArray
-    points: FloatArray
-    weights: FloatArray
-    begins: IntArray
-    owner: IntArray
 
 
 @dataclass(eq=False)
@@ -75,7 +64,7 @@ class Model:
     at: dict[int, int] = field(default_factory=dict)
     ways: dict[int, float] = field(default_factory=dict)
     constraints: list[Constraint] = field(default_factory=list)
-    alone: dict[Key, list[float]] = field(default_factory=dict)
+    alone: dict[Key, tuple[float, ...]] = field(default_factory=dict)
     beside: set[Key] = field(default_factory=set)
     ends: FloatArray | None = None
 
@@ -98,7 +87,7 @@ class Model:
             model.at[k] = len(x)
             key = model._key(k)
             if key not in model.alone:
-                own = _line_of if kind == LINE else circle_of
+                own = _kernels.line_through if kind == LINE else _kernels.circle_through
                 model.alone[key] = own(*model.counted(k))
                 if model._begins_beside(k):
                     model.beside.add(key)
@@ -172,56 +161,23 @@ class Model:
 
     def normal(self, x: FloatArray) -> tuple[FloatArray, FloatArray, dict[int, Misfit]]:
         """Normal matrix, gradient, misfit of each element."""
-        n = len(x)
-        matrix, gradient, misfits = np.zeros((n, n)), np.zeros(n), {}
-        for group in self._groups:
-            at, (px, py), w = group.at, group.points.T, group.weights
-            own = x[at][:, group.owner]
-            if group.is_line:
-                c, s = np.cos(own[0]), np.sin(own[0])
-                off = c * py - s * px - own[1]
-                slopes = np.stack([-c * px - s * py, -np.ones(len(off))])
-            else:
-                ox, oy = px - own[0], py - own[1]
-                far = np.maximum(np.hypot(ox, oy), 1e-300)
-                off = far - own[2]
-                slopes = np.stack([-ox / far, -oy / far, -np.ones(len(off))])
-            weighted = slopes * (w / self.seen.deviation**2)
-            products = np.add.reduceat(weighted[:, None] * slopes[None], group.begins, axis=2)
-            matrix[at[:, None], at[None]] = products
-            gradient[at] = np.add.reduceat(weighted * off, group.begins, axis=1)
-            squares = np.add.reduceat(w * off**2, group.begins) / self.seen.deviation**2
-            sums = np.add.reduceat(w, group.begins)
-            for k, square, total in zip(
-                group.segments, squares.tolist(), sums.tolist(), strict=True
-            ):
-                misfits[k] = Misfit(square, total)
-        return matrix, gradient, misfits
+        matrix, gradient = np.zeros((len(x), len(x))), np.zeros(len(x))
+        misfits = self._elements.normal(x, matrix, gradient)
+        return matrix, gradient, {k: Misfit(*one) for k, one in zip(self.at, misfits, strict=True)}
 
     @cached_property
-    def _groups(self) -> list[_Group]:
-        """The points that count, of all lines and of all circles."""
-        found = []
-        for kind in (LINE, ARC):
-            segments = [k for k in self.at if self.kind(k) == kind]
-            if not segments:
-                continue
-            data = [self.counted(k) for k in segments]
-            counts = [len(weights) for _, weights in data]
-            size = 2 if kind == LINE else 3
-            at = np.array([[self.at[k] + i for k in segments] for i in range(size)])
-            found.append(
-                _Group(
-                    kind == LINE,
-                    segments,
-                    at,
-                    np.concatenate([points for points, _ in data]),
-                    np.concatenate([weights for _, weights in data]),
-                    np.concatenate([[0], np.cumsum(counts)[:-1]]),
-                    np.repeat(np.arange(len(segments)), counts),
-                )
-            )
-        return found
+    def _elements(self) -> _kernels.Elements:
+        """The points that count, of all elements."""
+        data = [self.counted(k) for k in self.at]
+        counts = [len(weights) for _, weights in data]
+        return _kernels.Elements(
+            [self.kind(k) == LINE for k in self.at],
+            list(self.at.values()),
+            np.cumsum([0, *counts])[:-1].tolist(),
+            np.concatenate([points for points, _ in data]),
+            np.concatenate([weights for _, weights in data]),
+            self.seen.deviation,
+        )
 
     def misfits(self) -> dict[int, Misfit]:
         """Misfit of each element."""
@@ -259,63 +215,21 @@ class Model:
 
     def covariance(self) -> FloatArray:
         """Of the estimate under all constraints, systematic errors added."""
-        matrix, _, misfits = self.normal(self.x)
         n, own_end = len(self.x), self.n_own
-        found = np.zeros((n, n))
+        found, weights = np.zeros((n, n)), np.zeros((n, n))
         found[range(own_end, n), range(own_end, n)] = (10 * self.extent) ** 2
-        floor = self.seen.floor
-        weights = np.zeros((n, n))
         weights[range(own_end, n), range(own_end, n)] = (10 * self.extent) ** -2
+        floors = np.full((len(self.at), 3), self.seen.floor)
         s = self.row.stations
-        for group in self._groups:
-            at, size = group.at, len(group.at)
-            own = at.T[:, :, None], at.T[:, None, :]
-            blocks = matrix[own]
-            traces = np.trace(blocks, axis1=1, axis2=2)[:, None, None]
-            inverses = np.linalg.inv(blocks + 1e-13 * traces * np.eye(size))
-            told = np.array([misfits[k] for k in group.segments])
-            worse = told[:, 0] / np.maximum(told[:, 1] - size, 1.0)
-            inverses *= np.maximum(worse, 1.0)[:, None, None]
-            spans = [self.row.found[k][:2] for k in group.segments]
-            lengths = np.maximum([s[j] - s[i] for i, j in spans], 1e-300)
-            extra = np.full((len(lengths), size), floor)
-            if group.is_line:
-                extra[:, 0] = 2 * floor / lengths
-            inverses[:, range(size), range(size)] += extra**2
-            found[own], weights[own] = inverses, np.linalg.inv(inverses)
+        for row, k in enumerate(self.at):
+            i, j, kind = self.row.found[k]
+            if kind == LINE:
+                floors[row, 0] = 2 * self.seen.floor / max(float(s[j] - s[i]), 1e-300)
+        self._elements.covariance(self.x, floors, found, weights)
         if not self.constraints:
             return found
         _, space = self.null_space()
         return space @ np.linalg.inv(space.T @ weights @ space) @ space.T
-
-
-def _line_of(points: FloatArray, weights: FloatArray) -> list[float]:
-    middle = np.average(points, axis=0, weights=weights)
-    off = points - middle
-    along = np.linalg.eigh((off * weights[:, None]).T @ off)[1][:, 1]
-    if along @ (points[-1] - points[0]) < 0:
-        along = -along
-    return [
-        float(np.arctan2(along[1], along[0])),
-        float(along[0] * middle[1] - along[1] * middle[0]),
-    ]
-
-
-def circle_of(points: FloatArray, weights: FloatArray) -> list[float]:
-    """Centre and radius: Taubin's circle, then least squares across."""
-    middle = points.mean(axis=0)
-    size = max(float(np.abs(points - middle).max()), 1e-300)
-    unit = np.ascontiguousarray((points - middle) / size)
-    cx, cy, r, _ = _kernels.taubin_circle(unit, np.ascontiguousarray(weights))
-    x = np.array([cx, cy, r or 1e4])
-    for _ in range(5):
-        out = unit - x[:2]
-        far = np.maximum(np.hypot(*out.T), 1e-300)
-        jacobian = np.column_stack([-out / far[:, None], -np.ones(len(far))])
-        weighted = jacobian * weights[:, None]
-        step = np.linalg.lstsq(weighted.T @ jacobian, -weighted.T @ (far - x[2]), rcond=1e-14)[0]
-        x = x + step * min(1.0, 0.2 * x[2] / max(float(np.abs(step).max()), 1e-300))
-    return [*(middle + size * x[:2]).tolist(), float(size * x[2])]
 
 
 def _way(points: FloatArray, centre: FloatArray) -> float:

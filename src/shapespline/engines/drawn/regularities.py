@@ -8,11 +8,12 @@ each family all is estimated anew; if an element fits badly the family is given 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import hypot, log, pi, remainder
+from math import hypot, pi, remainder
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.engines.drawn.constraints import (
     CirclesTouch,
     Difference,
@@ -47,6 +48,8 @@ NAMES = (
 # Squared standard errors that an equation may be off by, a tangent joint by more; nats by which it
 # must be a surprise (DRA-04).
 LARGEST, LARGEST_TANGENT, LEAST_SURPRISE = 9.0, 16.0, 1.0
+# Of the square of an error that one equation may have each of several may have this part (DRA-04).
+EACH_OF_SEVERAL = 0.75
 # Joints that turn by less may be tangent; directions, radians, and radii, parts, that may agree.
 TANGENT_TURN, DIRECTIONS, RADII = 0.35, 0.03, 0.25
 # An element fits badly after a family of regularities if its misfit, in deviations, grows by more
@@ -55,7 +58,7 @@ WORSE_PART, WORSE_BY, ANYHOW = 1.5, 0.7, 1.5
 # Equations are met when none is off by more, in parts of the extent.
 MET = 1e-8
 # Variances below this part of the largest are none: the equation follows from others.
-IMPLIED, TINY = 1e-10, 1e-300
+IMPLIED = 1e-10
 
 
 @dataclass(eq=False)
@@ -107,30 +110,21 @@ class Search:
 
         ``span`` is the range that its value could have: that it is nothing must be a surprise.
         """
-        model, index = self.model, list(equation.index)
-        h, own = equation.value(model.x)
-        local = self.covariance[np.ix_(index, index)]
-        values, vectors = np.linalg.eigh(own @ local @ own.T)
-        told = values > IMPLIED * max(float(np.diag(local).max()), 0.0) + TINY
-        across = vectors.T @ h
-        if (np.abs(across[~told]) > MET * model.extent).any():
+        model = self.model
+        values, rows = equation.value(model.x)
+        limits = _kernels.EquationLimits(
+            largest=largest,
+            largest_each=EACH_OF_SEVERAL,
+            span=span or 0.0,
+            least_surprise=LEAST_SURPRISE,
+            implied=IMPLIED,
+            met=MET * model.extent,
+        )
+        x = model.x.copy()
+        if not _kernels.take_equation(x, self.covariance, equation.index, values, rows, limits):
             return False
-        n = int(told.sum())
-        if n == 0:
-            return True
-        squares = across[told] ** 2 / values[told]
-        statistic = float(squares.sum())
-        if statistic > largest * (1.0 if n == 1 else 0.75 * n):
-            return False
-        if span is not None:
-            surprise = sum(log(span / (2 * pi * v) ** 0.5) for v in values[told].tolist())
-            if surprise - 0.5 * statistic < LEAST_SURPRISE:
-                return False
-        ac = own @ self.covariance[index]
-        half = ac.T @ vectors[:, told] / np.sqrt(values[told])
-        model.x = model.x - half @ (across[told] / np.sqrt(values[told]))
+        model.x = x
         model.constraints.append(equation)
-        self.covariance = self.covariance - half @ half.T
         return True
 
     def _tangents(self) -> Iterator[Regularity]:
