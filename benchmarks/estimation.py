@@ -21,7 +21,7 @@ from scipy.interpolate import BSpline, make_smoothing_spline, splprep
 
 import shapespline as ss
 from benchmarks.quality import LARGE, own_corpus
-from checks import distance_to_curve
+from checks import distance_to_curve, distance_to_polyline, polyline_of
 from shapespline.analysis.noise import noise_level
 
 if TYPE_CHECKING:
@@ -58,9 +58,14 @@ def shaken(contour: ss.Contour, percent: float, seed: int) -> ss.Contour:
 
 
 def rms_to(truth: ss.Contour, curve: BSpline | Callable[[np.ndarray], np.ndarray]) -> float:
-    """Root mean square distance of dense points of the truth from a curve."""
-    off = distance_to_curve(truth.resampled(TRUTH_POINTS).points, curve, 0.05)
-    return float(np.sqrt((off**2).mean()))
+    """Root mean square distance between the truth and a curve, of dense points of both.
+
+    Of the truth's points alone a scribble that crosses it again and again would be near.
+    """
+    there = distance_to_curve(truth.resampled(TRUTH_POINTS).points, curve, 0.05)
+    along = ss.Contour.silently(polyline_of(curve, 0.05), closed=False)
+    back = distance_to_polyline(along.resampled(TRUTH_POINTS).points, truth.polyline)
+    return float(np.sqrt(0.5 * ((there**2).mean() + (back**2).mean())))
 
 
 def ours(truth: ss.Contour, noisy: ss.Contour) -> Found:

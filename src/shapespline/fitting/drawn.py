@@ -77,7 +77,7 @@ class DrawnPieces:
         if runs and self.shown is not None and not self.shown.clean:
             return  # noise between them is smoothed with the rest
         candidate = self._candidate(problem, found, within, monitor)
-        if candidate is None or not self._explains(candidate, problem):
+        if candidate is None or not self._explains(candidate, found, problem):
             return
         yield candidate
         if style.simplify:
@@ -134,7 +134,7 @@ class DrawnPieces:
         ]
         return tuple(pieces), kept
 
-    def _explains(self, candidate: Candidate, problem: Problem) -> bool:
+    def _explains(self, candidate: Candidate, drawn: Drawn, problem: Problem) -> bool:
         """Whether the curve comes near all points, and noisy ones tell no other as well."""
         if self.estimation is None:
             return True
@@ -156,7 +156,7 @@ class DrawnPieces:
         return (
             accuracy is not None
             or shown.clean
-            or self.estimation.justifies(candidate.pieces, told=candidate.rank == DRAWN)
+            or self.estimation.justifies(candidate.pieces, drawn.n_unknowns, told=drawn.is_told)
         )
 
 

@@ -52,9 +52,11 @@ if TYPE_CHECKING:
 # A smoothed outline is followed within one of these numbers of its standard errors (FIT-01).
 STANDARD_ERRORS = (1.5, 2.0, 3.0)
 # Pieces may cost at most this part of what one spline costs: with corners that are proven, which
-# everybody sees, and without; what was drawn, whose regularities make its points fewer than they
-# are counted, a little more (DRA-16).
-CHARACTER, NO_CORNERS, DRAWN_CHARACTER = 1.02, 0.97, 1.05
+# everybody sees, and without.
+CHARACTER, NO_CORNERS = 1.02, 0.97
+# What keeps regularities may cost so much more than one spline, whose size was chosen for these
+# very points (DRA-16).
+DRAWN_DEARER = 10.0
 # If a point is farther than so many bands away, the estimate has missed something: a jump, a spike,
 # a track too sparse to be smoothed (FIT-06).
 FARTHEST = 1.5
@@ -182,11 +184,17 @@ class Estimation:
         """What the points say of it."""
         return Evidence.of_spline(self.start, self.means, self.ordered)
 
-    def justifies(self, pieces: tuple[Piece, ...], *, told: bool) -> bool:
-        """Whether lines and arcs tell the points as well as one spline does."""
-        joints = len(pieces) if told else 0  # all of them drawn, none by chance
+    def justifies(self, pieces: tuple[Piece, ...], n_unknowns: int, *, told: bool) -> bool:
+        """Whether lines and arcs tell the points as well as one spline does.
+
+        Of their numbers they pay for those alone that regularities leave free.
+        """
+        # With regularities all joints were drawn, none is there by chance.
+        joints, dearer = (len(pieces), DRAWN_DEARER) if told else (0, 0.0)
         said = Evidence.of_pieces(pieces, self._degree, self.means, self.ordered, joints)
-        return said.cost <= DRAWN_CHARACTER * self.smooth.cost
+        free = n_unknowns + (0 if self.ordered.closed else 2)
+        cost = said.cost + PENALTY * (0.5 * free - said.n_stored_points)
+        return cost <= self.smooth.cost + dearer
 
     def explains(self, evidence: Evidence) -> bool:
         """Whether a curve comes near all points."""

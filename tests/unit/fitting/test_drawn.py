@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from benchmarks.drawn.tables import rendered
+from benchmarks.drawn.tables import measured, rendered
 from benchmarks.drawn.truth import sampled
 from benchmarks.small_letters import drawn
 from tests.support.promise import checked
@@ -135,6 +135,23 @@ def test_many_points_and_noisy_ones_tell_the_same():
         # A radius is known to sigma * sqrt(8 / n) about, which is a hundredth at most.
         assert all(abs(piece.arc.radius - 8) < 0.03 for piece in fit.pieces if piece.arc)
         assert fit.kept
+
+
+@pytest.mark.parametrize("seed", [3, 9, 17])
+def test_noisy_points_of_a_slot_tell_it_though_a_curve_follows_them_as_well(seed):
+    # Ten equations leave five of fourteen numbers: a spline of twelve points must be far nearer.
+    points = slot(200) + np.random.default_rng(seed).normal(0, 0.3, (200, 2))
+    fit = ss.fit_curve(points, closed=True)
+    assert sorted(piece.kind for piece in fit.pieces) == ["arc", "arc", "line", "line"]
+    # Fifty points of half a circle tell its radius to about 0.3 / sqrt(50): four of these.
+    assert all(abs(piece.arc.radius - 8) < 0.17 for piece in fit.pieces if piece.arc)
+
+
+@pytest.mark.parametrize("word", ["gear", "No. 42"])
+def test_corners_between_an_edge_and_a_curve_stay_with_the_edge(word):
+    figures = measured(word, 256, 0.35, "drawn")
+    assert max(figures.corners) <= 0.5
+    assert not any(figures.chamfered)
 
 
 def test_an_open_row_on_a_circle_is_one_arc():

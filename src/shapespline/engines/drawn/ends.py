@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.engines.drawn.joints import direction_at, meeting, onto, turn_at, unit_of
-from shapespline.engines.drawn.segments import LINE
+from shapespline.engines.drawn.segments import CORNER, LINE
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
+    from shapespline.engines.drawn.segments import Segments
     from shapespline.typing import BoolArray, FloatArray
 
 # A free-form run goes on smoothly from an element if its data do, radians.
@@ -18,8 +19,43 @@ SMOOTH_END = 0.2
 # A corner that is farther from its data than the first part of the tolerance is cut off, so that
 # the second part is left; data so many points about it are looked at (DRA-07).
 NEAR_PART, CUT_PART, NEIGHBOURS, CUTS = 0.97, 0.93, 8, 12
+# A corner so many points beyond the node of an element that it lies on ends it (DRA-19).
+CORNER_REACH = 3
 # Data that lie on an element are no farther from it than so many deviations.
 ON = 3.0
+
+
+def at_corners(model: Model) -> Segments:
+    """The row of a picture's closed outline, elements beside runs going on to the corner there.
+
+    Points beside a node do not count, so it may lie before the corner, which is then the run's.
+    """
+    row, n = model.row, len(model.row.found)
+    if not model.seen.closed or not model.seen.pixel or model.seen.one_bit or n < 2:
+        return row
+    steps = np.diff(row.points, axis=0)
+    before = np.roll(steps, 1, axis=0)
+    turns = np.abs(
+        np.arctan2(
+            before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0], (before * steps).sum(axis=1)
+        )
+    )
+    begins = [segment.begin for segment in row.found]
+    for k in range(n):
+        m = (k + 1) % n
+        if (k in model.at) == (m in model.at):
+            continue
+        own, way = (k, 1) if k in model.at else (m, -1)
+        node, other = row.found[m].begin, row.found[m if own == k else k]
+        reach = min(CORNER_REACH, other.end - other.begin - 2)
+        ahead = (node + way * np.arange(1, reach + 1)) % len(turns)
+        sharp = np.flatnonzero(turns[ahead] > CORNER)
+        if turns[node % len(turns)] > CORNER or len(sharp) == 0:
+            continue
+        upto = ahead[: sharp[0] + 1]
+        if np.abs(off_by(model, own, row.points[upto])).max() <= ON * model.seen.largest_deviation:
+            begins[m] = node + way * len(upto)
+    return row if begins == [s.begin for s in row.found] else row.cut_at(begins)
 
 
 def nodes_of(model: Model) -> dict[int, FloatArray]:

@@ -9,6 +9,7 @@ import numpy as np
 from shapespline import _kernels
 from shapespline.engines.drawn.ends import (
     SMOOTH_END,
+    at_corners,
     cut_off,
     first_on,
     last_on,
@@ -93,7 +94,7 @@ def as_drawn(
     if contour.closed:
         whole = _whole_circle(_rough(seen, tolerance) or seen)
         if whole is not None:
-            return Drawn((whole,), (), is_told=True)
+            return Drawn((whole,), (), is_told=True, n_unknowns=3)
     seen, row = _as_exact_as_drawn(seen, tolerance)
     row = supported(row, contour.closed)
     if len(row.found) > max(MANY_ELEMENTS, len(seen.points) / POINTS_EACH):
@@ -101,7 +102,8 @@ def as_drawn(
     if contour.closed and len(row.found) == 1:  # an arc that is no circle
         return None
     ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
-    model = None
+    model = Model.of(seen, row, None, ends)
+    row = at_corners(model)
     for _ in range(min(len(row.found), MOST_ROUNDS)):
         model = Model.of(seen, row, model, ends)
         if not is_enough(model):
@@ -195,7 +197,7 @@ def _drawn(model: Model, found: list[Regularity], tolerance: float, told: bool) 
         parts.append(_free_run(model, k, last, nodes))
         k = last + 1
     kept = tuple(one._replace(pieces=tuple(place[s] for s in one.pieces)) for one in found)
-    return Drawn(tuple(parts), kept, told)
+    return Drawn(tuple(parts), kept, told, model.null_space()[1].shape[1])
 
 
 def _element(model: Model, k: int, begin: FloatArray, end: FloatArray) -> DrawnLine | DrawnArc:

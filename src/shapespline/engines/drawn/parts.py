@@ -45,12 +45,14 @@ Part = DrawnLine | DrawnArc | FreeRun
 class Drawn:
     """Parts end to end, and the regularities that they keep, by their places among the parts.
 
-    ``is_told`` if these are enough to tell that it was drawn so.
+    ``is_told`` if these are enough to tell that it was drawn so; ``n_unknowns`` numbers of lines
+    and arcs are what they leave free.
     """
 
     parts: tuple[Part, ...]
     regularities: tuple[Regularity, ...]
     is_told: bool
+    n_unknowns: int
 
     @property
     def share(self) -> float:

@@ -85,11 +85,16 @@ class Segments(NamedTuple):
         """Those of a closed outline, beginning with segment k."""
         if k == 0:
             return self
-        cut, n = self.found[k].begin, len(self.points) - 1
+        found = self.found[k:] + self.found[:k]
+        return self._replace(found=found).cut_at([s.begin for s in found])
+
+    def cut_at(self, begins: Sequence[int]) -> Segments:
+        """Those of a closed outline, each beginning at another point."""
+        cut, n = begins[0], len(self.points) - 1
         order = (np.arange(n + 1) + cut) % n
+        ends = [(begin - cut) % n for begin in begins] + [n]
         found = tuple(
-            Segment((s.begin - cut) % n, ((s.end - cut) % n) or n, s.kind)
-            for s in self.found[k:] + self.found[:k]
+            Segment(i, j, s.kind) for i, j, s in zip(ends, ends[1:], self.found, strict=False)
         )
         return _row(self.points[order], self.weights[order], (self.first + cut) % n, found)
 

@@ -33,7 +33,7 @@ def simplified(drawn: Drawn, distance: float) -> Drawn:
     >>> from shapespline.values import Arc
     >>> low, right = np.array([[0.0, 0], [9, 0]]), np.array([[10.0, 1], [10, 9]])
     >>> fillet = DrawnArc(Arc((9, 1), 1.0, -np.pi / 2, np.pi / 2), low[1], right[0])
-    >>> corner = Drawn((DrawnLine(*low), fillet, DrawnLine(*right)), (), is_told=True)
+    >>> corner = Drawn((DrawnLine(*low), fillet, DrawnLine(*right)), (), True, 6)
     >>> [part.end.tolist() for part in simplified(corner, 0.5).parts]
     [[10.0, 0.0], [10.0, 9.0]]
     >>> simplified(corner, 0.2) is corner
@@ -67,7 +67,8 @@ def simplified(drawn: Drawn, distance: float) -> Drawn:
         for one in drawn.regularities
         if one.name not in OF_ARCS or changed.isdisjoint(one.pieces)
     )
-    return Drawn(tuple(part for part in parts if part is not None), kept, drawn.is_told)
+    left = tuple(part for part in parts if part is not None)
+    return replace(drawn, parts=left, regularities=kept)
 
 
 def _ends_of(part: Part) -> tuple[FloatArray, FloatArray]:
