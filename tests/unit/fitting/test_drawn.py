@@ -154,6 +154,13 @@ def test_corners_between_an_edge_and_a_curve_stay_with_the_edge(word):
     assert not any(figures.chamfered)
 
 
+def test_a_gear_of_many_small_teeth_comes_back_without_a_tolerance():
+    outlines, picture = rendered("gear 24", 128)
+    rim, hole = ss.fit_shape(ss.trace(picture), character="drawn").fits
+    assert [piece.kind for piece in rim.pieces] == ["line"] * len(outlines[0])
+    assert [piece.kind for piece in hole.pieces] == ["arc"]
+
+
 def test_an_open_row_on_a_circle_is_one_arc():
     for sweep in (1.0, 2 * np.pi):
         angle = np.linspace(0, sweep, 300)

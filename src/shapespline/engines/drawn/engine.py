@@ -48,7 +48,7 @@ FEWEST_POINTS = 12
 ROUND, ROUND_OF_POINTS = 2.0, 1.3
 # An outline of more elements than these that have fewer points each, or that contradict their
 # points so many times, is none that was drawn, which takes long to find out (DRA-10).
-MANY_ELEMENTS, POINTS_EACH, MOST_ROUNDS = 40, 10, 30
+MANY_ELEMENTS, POINTS_EACH, MOST_ROUNDS = 40, 5, 30
 # A picture is taken for drawn so many times less exactly than others where that saves so many
 # parameters a pixel: some renderers draw curves as polygons. Never by more than that part of a
 # pixel in the mean: not one of one bit. A free-form run counts once for so many pixels (DRA-13).
