@@ -79,7 +79,7 @@ def drawn_borders(
     def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
         missing, step = _missing(corners, tried, found, pixels, palette)
         uncertain = UNCERTAIN + 3 * (2 * AROUND + 1) * noise * 255.0 / step
-        return np.abs(missing) <= uncertain + rounded_off(corners.turns)
+        return np.abs(missing) <= uncertain + rounded_off(corners)
 
     return put_back(lines, levels, drawn, closed, fit)
 

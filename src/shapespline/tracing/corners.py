@@ -19,6 +19,7 @@ from shapespline.tracing.sides import (
     NONE,
     SAME_CORNER,
     SIDE,
+    SQUARE,
     Ways,
     length_of,
     meetings,
@@ -67,7 +68,7 @@ def sharpened(
 
     def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
         missing = _missing(corners.points, tried, field)
-        return np.abs(missing) <= UNCERTAIN + rounded_off(corners.turns) + 3 * noise
+        return np.abs(missing) <= UNCERTAIN + rounded_off(corners) + 3 * noise
 
     return put_back(outlines, level_lines, drawn, [True] * len(outlines), fit)
 
@@ -125,10 +126,15 @@ def _away(found: Corners, corners: Corners) -> BoolArray:
     return np.asarray(np.abs(beside - places).min(axis=0) > SAME_CORNER)
 
 
-def rounded_off(turns: FloatArray) -> FloatArray:
-    """Square pixels that a rounding takes from corners, of acute ones no more than a tip has."""
-    half = np.tan(0.5 * turns)
-    return np.asarray(np.minimum(ROUNDING**2 * (half - 0.5 * turns), TIP**2 / half))
+def rounded_off(corners: Corners) -> FloatArray:
+    """Square pixels that a rounding takes from corners, of acute ones no more than a tip has.
+
+    Half of it where less of the sides than usual is taken for disturbed.
+    """
+    half = np.tan(0.5 * corners.turns)
+    most = np.minimum(ROUNDING**2 * (half - 0.5 * corners.turns), TIP**2 / half)
+    disturbed = 0.5 * (corners.ends - corners.begins) - SQUARE * half
+    return np.where(disturbed < 0.5 * DISTURBED[0], 0.5 * most, most)
 
 
 def _distances(

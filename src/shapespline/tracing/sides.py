@@ -21,8 +21,9 @@ CHORD = (1.0, 3.4)
 # Candidates nearer than this are one; sides are looked at as far as this, and over no less.
 SAME_CORNER, SIDE, SHORTEST_SIDE = 1.6, 6.0, 0.9
 # A side is disturbed this far from the corner: half a pixel for its column, or more where columns
-# next to it see the corner, and what the other side's square reaches over.
-DISTURBED, SQUARE = (0.75, 1.25, 1.75), 0.5
+# next to it see the corner, and what the other side's square reaches over. Where that leaves no
+# side, less is tried: the level line turns before an acute corner, and all is counted from there.
+DISTURBED, SQUARE, LEAST_DISTURBED = (0.75, 1.25, 1.75, -0.5), 0.5, 0.5
 # Root mean square distance in pixels of a side to a line and a parabola. The line is taken where it
 # is not so many times worse.
 SMOOTH, TIE, TIE_FACTOR = 0.05, 0.004, 1.5
@@ -132,11 +133,11 @@ def meetings(ways: Ways, turns: Turns, disturbed: float) -> Corners:
     if len(own) == 0:
         return NONE
     for _ in range(ROUNDS):
-        near = disturbed + SQUARE * np.tan(0.5 * turn)
-        behind, ahead = _room(ways, own, at)
+        near = np.maximum(disturbed + SQUARE * np.tan(0.5 * turn), LEAST_DISTURBED)
+        behind, ahead = _room(ways, own, at, near)
         sides, wide = [], np.full(len(at), np.inf)
         for room, sign in ((behind, -1.0), (ahead, 1.0)):
-            far = np.minimum(SIDE, room - near)
+            far = np.minimum(SIDE, room)
             sides.append(_side(ways, own, at, near, far, sign))
             wide = np.minimum(wide, far - near)
         runs, turn, off, apart = _meeting(sides[0][0], sides[1][0], near)
@@ -168,15 +169,20 @@ def length_of(points: FloatArray) -> float:
     return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
 
-def _room(ways: Ways, own: IntArray, at: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Arc length from each candidate to the one before and the one after it, or to an end."""
+def _room(
+    ways: Ways, own: IntArray, at: FloatArray, near: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Arc length from each candidate to where the ones before and after it disturb, or an end."""
     first, last = np.searchsorted(own, own), np.searchsorted(own, own, side="right") - 1
     index, length, closed = np.arange(len(own)), ways.lengths[own], ways.closed[own]
     before = np.where(index > first, at[np.maximum(index - 1, 0)],
                       np.where(closed, at[last] - length, 0.0))  # fmt: skip
     after = np.where(index < last, at[np.minimum(index + 1, len(own) - 1)],
                      np.where(closed, at[first] + length, length))  # fmt: skip
-    return at - before, after - at
+    # What is beside a sharp corner disturbs as far as its own turn lets it.
+    left = near[np.where(index > first, index - 1, np.where(closed, last, index))]
+    right = near[np.where(index < last, index + 1, np.where(closed, first, index))]
+    return at - before - left, after - at - right
 
 
 def turns_of(ways: Ways) -> Turns:

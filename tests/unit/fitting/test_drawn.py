@@ -154,6 +154,14 @@ def test_corners_between_an_edge_and_a_curve_stay_with_the_edge(word):
     assert not any(figures.chamfered)
 
 
+@pytest.mark.parametrize("word", ["jäger", "Plate 7"])
+def test_acute_notches_between_short_edges_are_no_hooks(word):
+    figures = measured(word, 256, 0.35, "drawn")
+    assert max(figures.corners) <= 1.5  # none is lost
+    assert not any(figures.chamfered)
+    assert sum(figures.hooks) == 0
+
+
 def test_a_gear_of_many_small_teeth_comes_back_without_a_tolerance():
     outlines, picture = rendered("gear 24", 128)
     rim, hole = ss.fit_shape(ss.trace(picture), character="drawn").fits
