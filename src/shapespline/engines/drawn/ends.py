@@ -47,7 +47,7 @@ def at_corners(model: Model) -> Segments:
             continue
         own, way = (k, 1) if k in model.at else (m, -1)
         node, other = row.found[m].begin, row.found[m if own == k else k]
-        reach = min(CORNER_REACH, other.end - other.begin - 2)
+        reach = min(CORNER_REACH, (other.end - other.begin - 1) // 2)  # both of its ends may move
         ahead = (node + way * np.arange(1, reach + 1)) % len(turns)
         sharp = np.flatnonzero(turns[ahead] > CORNER)
         if turns[node % len(turns)] > CORNER or len(sharp) == 0:

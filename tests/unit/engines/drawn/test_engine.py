@@ -1,13 +1,16 @@
 """Lines, arcs and regularities out of points of known drawings."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
 from shapespline.engines.drawn import NAMES, DrawnArc, DrawnLine, FreeRun, as_drawn
 from shapespline.engines.drawn.constraints import CirclesTouch, Images, LineTouches, equations
+from shapespline.engines.drawn.ends import at_corners
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
-from shapespline.engines.drawn.segments import segmented
+from shapespline.engines.drawn.segments import FREE, LINE, Segment, Segments, segmented
 from shapespline.values import Contour
 
 
@@ -197,6 +200,21 @@ def test_equations_are_met_and_the_rest_is_least_squares():
     _, space = model.null_space()
     # In the null space nothing is left to gain: the last step was below 1e-11 of the extent.
     assert np.abs(space.T @ gradient).max() < 1e-8 * np.abs(matrix).max()
+
+
+@pytest.mark.parametrize("end", [43, 44, 46])
+def test_an_edge_goes_on_to_the_corner_and_no_run_is_turned_inside_out(end):
+    corners = [(0, 0), (20, 0), (20, 20), (0, 20), (0, 0)]
+    points = np.concatenate([side(a, b, 20) for a, b in pairwise(corners)])
+    row = np.vstack([points, points[:1]])
+    # The top edge ends two points before its corner, the left one begins behind it.
+    kinds = [(0, 20, LINE), (20, 38, LINE), (38, end, FREE), (end, 60, LINE), (60, 80, LINE)]
+    found = tuple(Segment(*one) for one in kinds)
+    segments = Segments(row, np.arange(81.0), np.ones(81), 0, found)
+    seen = Observed(points, True, 0.02, 0.02, 0.0, 1.0)
+    moved = at_corners(Model.of(seen, segments))
+    assert [s.begin for s in moved.found] == [0, 20, 40, end, 60]
+    assert [s.end for s in moved.found] == [20, 40, end, 60, 80]
 
 
 def test_small_and_odd_outlines_are_no_error():
