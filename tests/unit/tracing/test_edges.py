@@ -85,6 +85,29 @@ def test_a_narrow_notch_with_a_blunt_end_gets_no_long_tip():
     assert near[near[:, 1] < 50, 1].max() <= 34.1 + 0.5
 
 
+@pytest.mark.parametrize(
+    ("degrees", "turn", "radius", "shift"), [(50, 72, 0.7, 0), (30, 120, 0.5, 0.6)]
+)
+def test_a_rounded_finger_gets_no_tip(degrees, turn, radius, shift):
+    """Sides that are looked at from nearer than usual may not miss as much ink (TRC-07)."""
+    half, along = np.radians(degrees) / 2, np.radians(turn)
+    ahead = np.array([np.cos(along), np.sin(along)])
+    tip = np.array([32 + shift, 32 + 0.3 * shift])
+    middle = tip + ahead * radius / np.sin(half)
+
+    def finger(x, y):
+        s = (x - tip[0]) * ahead[0] + (y - tip[1]) * ahead[1]
+        across = np.abs((y - tip[1]) * ahead[0] - (x - tip[0]) * ahead[1])
+        beyond = s >= radius / np.tan(half) * np.cos(half)  # where the rounding has ended
+        rounding = np.hypot(x - middle[0], y - middle[1]) <= radius
+        return (across <= s * np.tan(half)) & (s <= 22) & (beyond | rounding)
+
+    (contour,) = trace(dark(coverage(finger, 64, 64)))
+    rounded = radius / np.sin(half) - radius
+    # No more than half of what the rounding took comes back.
+    assert np.hypot(*(contour.points - tip).T).min() >= 0.5 * rounded
+
+
 def wedge(angle, direction, corner, size):
     """A sector of straight sides within a square picture, counter-clockwise."""
     far = 4 * size
