@@ -13,6 +13,7 @@
 #include "shapespline/distance/deviation.hpp"
 #include "shapespline/distance/near_feet.hpp"
 #include "shapespline/distance/nearest.hpp"
+#include "shapespline/distance/sides.hpp"
 #include "shapespline/distance/thinning.hpp"
 
 using namespace nb::literals;
@@ -91,4 +92,32 @@ void bind_distance(nb::module_ &m) {
                 .run();
         },
         "vertices"_a.noconvert(), "starts"_a.noconvert(), "at_vertices"_a);
+
+    nb::class_<ss::Sides>(m, "Sides")
+        .def(
+            "__init__",
+            [](ss::Sides *made, In2 vertices, In1 along, InIndices starts, In1 rounds) {
+                const auto points = vectors(vertices);
+                std::vector<ss::Sides::Segment> segments;
+                for (std::size_t k = 0; k + 1 < starts.shape(0); ++k)
+                    for (std::int64_t i = starts(k); i + 1 < starts(k + 1); ++i)
+                        segments.push_back({points[i], points[i + 1], along(i),
+                                            static_cast<std::int64_t>(k)});
+                const auto given = numbers(rounds);
+                new (made) ss::Sides(std::move(segments), {given.begin(), given.end()});
+            },
+            "vertices"_a.noconvert(), "along"_a.noconvert(), "starts"_a.noconvert(),
+            "rounds"_a.noconvert())
+        .def(
+            "across",
+            [](const ss::Sides &self, In2 points, In1 along, std::int64_t own, double reach,
+               double around, double least, OutPoints across) {
+                nb::gil_scoped_release release;
+                const auto at = vectors(points);
+                for (std::size_t i = 0; i < at.size(); ++i)
+                    vectors(across)[i] =
+                        self.across(at[i], along(i), own, {reach, around, least});
+            },
+            "points"_a.noconvert(), "along"_a.noconvert(), "own"_a, "reach"_a, "around"_a,
+            "least"_a, "across"_a.noconvert());
 }

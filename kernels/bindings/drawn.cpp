@@ -101,14 +101,26 @@ void bind_drawn(nb::module_ &m) {
         },
         "x"_a.noconvert(), "covariance"_a.noconvert(), "index"_a, "values"_a.noconvert(),
         "rows"_a.noconvert(), "limits"_a);
-    m.def(
-        "null_space",
-        [](In1 values, Rows rows, In1 units, double implied, Out1 onto, Out2 basis) {
-            const std::vector<char> free = drawn::null_space(
-                numbers(values), {rows.data(), rows.size()}, numbers(units), implied,
-                numbers(onto), {basis.data(), basis.size()});
-            return std::vector<bool>(free.begin(), free.end());
-        },
-        "values"_a.noconvert(), "rows"_a.noconvert(), "units"_a.noconvert(), "implied"_a,
-        "onto"_a.noconvert(), "basis"_a.noconvert());
+    nb::class_<drawn::MeetingSteps>(m, "MeetingSteps")
+        .def(
+            "__init__",
+            [](drawn::MeetingSteps *made, In1 values, Rows rows, In1 units, double implied) {
+                new (made) drawn::MeetingSteps(numbers(values), {rows.data(), rows.size()},
+                                               numbers(units), implied);
+            },
+            "values"_a.noconvert(), "rows"_a.noconvert(), "units"_a.noconvert(), "implied"_a)
+        .def("n_free", &drawn::MeetingSteps::n_free)
+        .def(
+            "best",
+            [](const drawn::MeetingSteps &self, Rows matrix, In1 gradient, Out1 step) {
+                self.best({matrix.data(), matrix.size()}, numbers(gradient), numbers(step));
+            },
+            "matrix"_a.noconvert(), "gradient"_a.noconvert(), "step"_a.noconvert())
+        .def(
+            "covariance",
+            [](const drawn::MeetingSteps &self, Rows precision, Out2 covariance) {
+                self.covariance({precision.data(), precision.size()},
+                                {covariance.data(), covariance.size()});
+            },
+            "precision"_a.noconvert(), "covariance"_a.noconvert());
 }

@@ -92,11 +92,34 @@ TEST(steps_that_meet_equations_are_one_and_a_basis_of_all) {
     // x + y = 1 and z = 2, the first said twice, from nothing: values are those at zero.
     const std::vector<double> values{-1.0, -2.0, -1.0}, units{1.0, 1.0, 1.0};
     const std::vector<double> rows{1, 1, 0, 0, 0, 1, 1, 1, 0};
-    std::vector<double> onto(3), basis(9);
-    const std::vector<char> free = null_space(values, rows, units, 1e-8, onto, basis);
-    CHECK(std::count(free.begin(), free.end(), 1) == 1);
-    CHECK(onto[0] + onto[1] == 1.0 && onto[2] == 2.0);
-    for (int j = 0; j < 3; ++j) CHECK(basis[j] + basis[3 + j] == 0.0 && basis[6 + j] == 0.0);
+    const MeetingSteps steps(values, rows, units, 1e-8);
+    CHECK(steps.n_free() == 1);
+    // Nearest to (3, 0, 0), and 1e-12 of the trace that holds back unknowns without data.
+    const std::vector<double> identity{1, 0, 0, 0, 1, 0, 0, 0, 1}, gradient{-3.0, 0.0, 0.0};
+    std::vector<double> step(3), covariance(9);
+    steps.best(identity, gradient, step);
+    CHECK_NEAR(step[0], 2.0, 1e-11);
+    CHECK_NEAR(step[1], -1.0, 1e-11);
+    CHECK_NEAR(step[2], 2.0, 1e-15);
+    steps.covariance(identity, covariance);
+    const double expected[]{0.5, -0.5, 0.0, -0.5, 0.5, 0.0, 0.0, 0.0, 0.0};
+    for (int i = 0; i < 9; ++i) CHECK_NEAR(covariance[i], expected[i], 1e-15);
+}
+
+TEST(without_equations_the_covariance_is_the_inverse_of_the_precision) {
+    const MeetingSteps steps({}, {}, std::vector<double>{1.0, 0.1}, 1e-8);
+    std::vector<double> step(2), covariance(4);
+    const std::vector<double> precision{2.0, 1.0, 1.0, 2.0}, gradient{1.0, 0.0};
+    steps.covariance(precision, covariance);
+    const double expected[]{2.0 / 3, -1.0 / 3, -1.0 / 3, 2.0 / 3};
+    for (int i = 0; i < 4; ++i) CHECK_NEAR(covariance[i], expected[i], 1e-15);
+    steps.best(precision, gradient, step);
+    CHECK_NEAR(step[0], -2.0 / 3, 1e-9);
+    CHECK_NEAR(step[1], 1.0 / 3, 1e-9);
+    // Of two unknowns that data only tell together neither moves without bound.
+    const std::vector<double> together{1.0, 1.0, 1.0, 1.0}, both{1.0, 1.0};
+    steps.best(together, both, step);
+    CHECK_NEAR(step[0] + step[1], -1.0, 1e-6);
 }
 
 TEST(lines_and_circles_through_their_points_are_theirs) {

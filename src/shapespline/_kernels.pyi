@@ -276,6 +276,23 @@ def crossing_pairs(
     vertices: FloatArray, starts: IntArray, at_vertices: bool
 ) -> list[tuple[int, int]]: ...
 
+class Sides:
+    # Polyline i as in crossing_pairs; how far along it each vertex is; the lengths of closed ones,
+    # infinite of open ones.
+    def __init__(
+        self, vertices: FloatArray, along: FloatArray, starts: IntArray, rounds: FloatArray
+    ) -> None: ...
+    def across(
+        self,
+        points: FloatArray,  # (n, 2)
+        along: FloatArray,  # of polyline `own`
+        own: int,
+        reach: float,
+        around: float,  # times the distance
+        least: float,
+        across: FloatArray,  # (n, 2), written
+    ) -> None: ...
+
 class JointPrices:
     def __init__(
         self,
@@ -366,11 +383,24 @@ def take_equation(
     rows: FloatArray,  # (m, len(index))
     limits: EquationLimits,
 ) -> bool: ...
-def null_space(
-    values: FloatArray,  # (m,)
-    rows: FloatArray,  # (m, n)
-    units: FloatArray,  # (n,)
-    implied: float,
-    onto: FloatArray,  # (n,), written
-    basis: FloatArray,  # (n, n), written
-) -> list[bool]: ...  # which columns of the basis are free
+
+class MeetingSteps:
+    def __init__(
+        self,
+        values: FloatArray,  # (m,)
+        rows: FloatArray,  # (m, n)
+        units: FloatArray,  # (n,)
+        implied: float,
+    ) -> None: ...
+    def n_free(self) -> int: ...
+    def best(
+        self,
+        matrix: FloatArray,  # (n, n)
+        gradient: FloatArray,  # (n,)
+        step: FloatArray,  # (n,), written
+    ) -> None: ...
+    def covariance(
+        self,
+        precision: FloatArray,  # (n, n)
+        covariance: FloatArray,  # (n, n), written
+    ) -> None: ...

@@ -197,7 +197,7 @@ def _drawn(model: Model, found: list[Regularity], tolerance: float, told: bool) 
         parts.append(_free_run(model, k, last, nodes))
         k = last + 1
     kept = tuple(one._replace(pieces=tuple(place[s] for s in one.pieces)) for one in found)
-    return Drawn(tuple(parts), kept, told, model.null_space()[1].shape[1])
+    return Drawn(tuple(parts), kept, told, model.n_free)
 
 
 def _element(model: Model, k: int, begin: FloatArray, end: FloatArray) -> DrawnLine | DrawnArc:

@@ -187,31 +187,28 @@ class Model:
         """The best estimate under the constraints."""
         if not len(self.x):
             return
+        step = np.empty(len(self.x))
         for _ in range(rounds):
             matrix, gradient, _misfits = self.normal(self.x)
-            onto, space = self.null_space()
-            # Unknowns that no data tell, of a motion that is determined, stay.
-            reduced = space.T @ matrix @ space
-            reduced[np.diag_indices_from(reduced)] += 1e-12 * max(float(np.trace(reduced)), 1e-300)
-            step = onto + space @ np.linalg.solve(reduced, -space.T @ (gradient + matrix @ onto))
+            self._meeting_steps().best(matrix, gradient, step)
             largest = float(np.abs(step).max())
             self.x = self.x + step * min(1.0, LONGEST_STEP * self.extent / max(largest, 1e-300))
             if largest < LEAST_STEP * self.extent:
                 break
 
-    def null_space(self) -> tuple[FloatArray, FloatArray]:
-        """The steps that meet the constraints, linearised: one of them, and a basis of all.
+    def _meeting_steps(self) -> _kernels.MeetingSteps:
+        """The steps that meet the constraints, linearised.
 
-        Equations take one unknown each out of those that are left, that with the largest entry
-        (Gauss). Directions count in arcs of the extent, as the other unknowns are lengths.
+        Directions count in arcs of the extent, as the other unknowns are lengths.
         """
-        n = len(self.x)
-        unit = np.ones(n)
+        unit = np.ones(len(self.x))
         unit[[o for k, o in self.at.items() if self.kind(k) == LINE]] = 1.0 / self.extent
-        h, jacobian = equations(self.constraints, self.x)
-        onto, space = np.empty(n), np.empty((n, n))
-        left = _kernels.null_space(h, jacobian, unit, IMPLIED, onto, space)
-        return onto, space[:, left]
+        return _kernels.MeetingSteps(*equations(self.constraints, self.x), unit, IMPLIED)
+
+    @property
+    def n_free(self) -> int:
+        """How many numbers the constraints leave free."""
+        return self._meeting_steps().n_free()
 
     def covariance(self) -> FloatArray:
         """Of the estimate under all constraints, systematic errors added."""
@@ -226,10 +223,9 @@ class Model:
             if kind == LINE:
                 floors[row, 0] = 2 * self.seen.floor / max(float(s[j] - s[i]), 1e-300)
         self._elements.covariance(self.x, floors, found, weights)
-        if not self.constraints:
-            return found
-        _, space = self.null_space()
-        return space @ np.linalg.inv(space.T @ weights @ space) @ space.T
+        if self.constraints:
+            self._meeting_steps().covariance(weights, found)
+        return found
 
 
 def _way(points: FloatArray, centre: FloatArray) -> float:

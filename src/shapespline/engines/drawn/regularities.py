@@ -95,12 +95,8 @@ class Search:
         taken = list(tried())
         if not taken:
             return
-        try:
-            model.solve()
-            bad = fits_badly(model, before)
-        except np.linalg.LinAlgError:
-            bad = True
-        if bad:
+        model.solve()
+        if fits_badly(model, before):
             model.x, model.constraints = kept
         else:
             self.found += taken
@@ -236,11 +232,11 @@ def tangency(model: Model, k: int, m: int) -> Constraint | None:
 def fits_badly(model: Model, before: dict[int, Misfit]) -> bool:
     """Whether equations are not met, or an element fits worse than noise explains."""
     h, _ = equations(model.constraints, model.x)
-    if len(h) and float(np.abs(h).max()) > MET * model.extent:
+    if len(h) and not float(np.abs(h).max()) <= MET * model.extent:
         return True
     anyhow = ANYHOW * model.seen.largest_deviation / model.seen.deviation
     for k, now in model.misfits().items():
         old = before[k].mean
-        if now.mean > max(WORSE_PART * old, old + WORSE_BY, anyhow):
+        if not now.mean <= max(WORSE_PART * old, old + WORSE_BY, anyhow):
             return True
     return False

@@ -101,11 +101,8 @@ def _kept(
         if own:
             first, second = zip(*own, strict=True)
             model.constraints.append(Images(first, second, at, kind == LINE, angle))
-    try:
-        model.solve(ROUNDS)
-        bad = fits_badly(model, before)
-    except np.linalg.LinAlgError:
-        bad = True
+    model.solve(ROUNDS)
+    bad = fits_badly(model, before)
     if bad:
         model.x, model.constraints = x, constraints
     return not bad

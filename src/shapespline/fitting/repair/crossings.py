@@ -121,7 +121,7 @@ def _uncrossed(
     """The same of fits in canonical order, of which ``pairs`` cross."""
     refit, contours = Refit(request, ask), [fit.contour for fit in fits]
     fits, lines, pairs = _given_up(fits, pairs, request)
-    sides = Sides.of([fit.contour for fit in fits])
+    sides = Sides([fit.contour for fit in fits])
     begun: dict[int, PieceAssignment] = {}
     rows: dict[int, PieceAssignment] = {}
     best: dict[int, tuple[int, PieceAssignment]] = {}
@@ -247,7 +247,7 @@ def _lies_on_data(row: PieceAssignment, at: int, sides: Sides) -> bool:
     """
     part, tolerance = row.parts[at], row.fit.tolerance
     data = row.data.part(max(part.begin - 1, 0), part.end + 1)
-    across = sides.beside(data.points, tolerance).across(data, row.owner, NEXT * tolerance)
+    across = sides.across(data, row.owner, reach=tolerance, least=NEXT * tolerance)
     touching = np.hypot(*across.T) <= TOUCHING * np.ptp(row.data.points, axis=0).max()
     return bool(2 * touching.sum() > len(touching))
 
@@ -281,7 +281,7 @@ def _aside(
     if not len(data.points):
         return data.points
     feet = [_feet(part, row.data.points[part.begin : part.end]) for part in window]
-    across = sides.beside(data.points, 2 * within).across(data, row.owner, within)
+    across = sides.across(data, row.owner, reach=2 * within, least=within)
     room = row.fit.tolerance - within
     return moved(data.points, np.concatenate(feet), across, within, room)
 
