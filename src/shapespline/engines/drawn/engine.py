@@ -46,9 +46,9 @@ FEWEST_POINTS = 12
 # A whole circle is within so many deviations in the mean (DRA-06), of measured points, whose errors
 # are independent, fewer (DRA-16).
 ROUND, ROUND_OF_POINTS = 2.0, 1.3
-# An outline of more elements than these that have fewer points each, or that contradict their
-# points so many times, is none that was drawn, which takes long to find out (DRA-10).
-MANY_ELEMENTS, POINTS_EACH, MOST_ROUNDS = 40, 5, 30
+# An outline of more elements than these that have fewer points each, or of which so many contradict
+# their points, is none that was drawn, which takes long to find out (DRA-10).
+MANY_ELEMENTS, POINTS_EACH, MOST_WRONG = 40, 5, 30
 # A picture is taken for drawn so many times less exactly than others where that saves so many
 # parameters a pixel: some renderers draw curves as polygons. Never by more than that part of a
 # pixel in the mean: not one of one bit. A free-form run counts once for so many pixels (DRA-13).
@@ -102,16 +102,16 @@ def as_drawn(
     if contour.closed and len(row.found) == 1:  # an arc that is no circle
         return None
     ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
-    model = Model.of(seen, row, None, ends)
-    row = at_corners(model)
-    for _ in range(min(len(row.found), MOST_ROUNDS)):
+    row = at_corners(Model.of(seen, row, None, ends))
+    model, n_wrong = Model.of(seen, row, None, ends), 0
+    while (fewer := without_few(model)) is not None and n_wrong < MOST_WRONG:
+        model, n_wrong = Model.of(seen, fewer, model, ends), n_wrong + 1
+    row = model.row
+    while n_wrong < min(len(row.found), MOST_WRONG):
         model = Model.of(seen, row, model, ends)
         if not is_enough(model):
             return None
-        if (fewer := without_few(model)) is not None:
-            row = fewer
-            continue
-        bad = misfitting(model, tolerance)  # each alone first, which is soon done
+        bad = misfitting(model, tolerance, each_alone=True)  # which is soon done
         if not bad:
             found = Search(model, NAMES).run()
             bad = misfitting(model, tolerance)
@@ -123,7 +123,7 @@ def as_drawn(
                 model = Model.of(seen, row, model, ends)
                 found = Search(model, regularities).run()
             return _drawn(model, found, tolerance, told)
-        row = supported(_without(row, bad), contour.closed)
+        row, n_wrong = supported(_without(row, bad), contour.closed), n_wrong + len(bad)
     return None
 
 

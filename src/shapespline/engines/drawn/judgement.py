@@ -41,8 +41,11 @@ HOPELESS = 0.7
 NODE_STEPS, NODE_DEVIATIONS = 3.0, 20.0
 
 
-def misfitting(model: Model, tolerance: float) -> list[int]:
-    """Elements that their own data contradict, the worst alone where others may be its victims."""
+def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> list[int]:
+    """Elements that their own data contradict, the worst alone where others may be its victims.
+
+    ``each_alone`` tells that no equation joins them.
+    """
     bad: list[tuple[float, int]] = []
     sigma = model.seen.largest_deviation
     for k, misfit in model.misfits().items():
@@ -52,7 +55,7 @@ def misfitting(model: Model, tolerance: float) -> list[int]:
         if far > 1.0:
             bad.append((far, k))
     if bad:
-        return [max(bad)[1]]
+        return [k for _, k in bad] if each_alone else [max(bad)[1]]
     nodes = nodes_of(model)
     reach = NODE_STEPS * model.seen.step + NODE_DEVIATIONS * sigma
     n = len(model.row.found)
