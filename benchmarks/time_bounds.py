@@ -4,6 +4,7 @@
     python -m benchmarks.time_bounds --all       every outline of ../shared/data beside it
     python -m benchmarks.time_bounds --every 10  each tenth of them
     python -m benchmarks.time_bounds --hard      the hard outlines alone
+    python -m benchmarks.time_bounds --single    a few outlines that times were asked for, alone
 
 Seconds of the processor, one thread: other work on the machine does not count. The exit code is 1
 if a hard outline takes longer than two seconds.
@@ -20,8 +21,11 @@ import numpy as np
 
 import shapespline as ss
 from benchmarks.attack.shapes import along
+from benchmarks.drawn.catalogue import drawings
+from benchmarks.drawn.tables import rendered
 from benchmarks.peers import splprep_points
 from benchmarks.quality import large_corpus, own_corpus
+from benchmarks.scale import wiggly
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -32,6 +36,9 @@ if TYPE_CHECKING:
 SECONDS, POINTS = 2.0, 2000
 TOLERANCES = (0.0002, 0.001, 0.005, 0.02)
 PERCENTILES = (50, 90, 95, 99, 100)
+# Of single outlines: runs of which the best counts; pictures (pixels), their tolerance, and how
+# many points outlines have that are looked at.
+RUNS, PIXELS, WITHIN, LONG = 5, 256, 0.35, (800, 1200)
 
 
 def hard_outlines(seed: int) -> Iterator[tuple[str, NDArray[np.float64], bool]]:
@@ -75,9 +82,13 @@ def main() -> int:
     parser.add_argument("--all", action="store_true", help="the large corpus, too")
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--hard", action="store_true", help="without a corpus")
+    parser.add_argument("--single", action="store_true", help="single outlines alone")
     parser.add_argument("--seeds", type=int, default=3)
     asked = parser.parse_args()
     seconds_of(np.random.default_rng(0).normal(0, 1, (50, 2)), closed=True, tolerance=0.01)
+    if asked.single:
+        _print_single()
+        return 0
     rows = [
         (seconds_of(points, closed=closed, tolerance=tolerance)[0], name, tolerance, seed)
         for seed in range(asked.seeds)
@@ -91,6 +102,33 @@ def main() -> int:
     if not asked.hard:
         _print_corpus(asked)
     return int(rows[0][0] > SECONDS)
+
+
+def best_of(contour: ss.Contour, tolerance: float) -> float:
+    """Milliseconds of the processor for a fit, the best of some runs."""
+    each = []
+    for _ in range(RUNS):
+        began = time.process_time()
+        ss.fit_curve(contour, tolerance=tolerance)
+        each.append(1000 * (time.process_time() - began))
+    return min(each)
+
+
+def _print_single() -> None:
+    (leaf,) = (outline.contour for outline in own_corpus() if outline.name == "leaf840_closed")
+    wave = ss.Contour(wiggly(200), closed=True)
+    print("| | ms | asked |\n|---|---|---|")
+    print(f"| leaf of 840 points, 0.1 % | {best_of(leaf, 0.001 * leaf.box_diagonal):.0f} | 60 |")
+    print(f"| wave of 200 points, 0.1 % | {best_of(wave, 0.001 * wave.box_diagonal):.0f} | 15 |")
+    traced = [
+        contour
+        for name in drawings()
+        for contour in ss.trace(rendered(name, PIXELS)[1])
+        if LONG[0] <= len(contour) <= LONG[1]
+    ]
+    each = [best_of(contour, WITHIN) for contour in traced]
+    said = f"outlines of {LONG[0]} to {LONG[1]} points of pictures, within {WITHIN}"
+    print(f"| {len(each)} {said}: median, most | {np.median(each):.0f}, {max(each):.0f} | 40 |")
 
 
 def _print_corpus(asked: argparse.Namespace) -> None:
