@@ -23,8 +23,9 @@ BOX_PARTS = (0.0005, 0.001)
 NOISE_BAND, ACCURACY_BAND = 4.0, 3.0
 
 
-# Steps of an outline are seen between means of so many points (FIT-23).
-SMOOTHED, FEWEST_AVERAGED = 9, 100
+# Steps of an outline are seen between means of so many points, a twentieth of few. They are short
+# below this part of the noise: points that are averaged show less of what they are on (FIT-23).
+SMOOTHED, FEWEST_AVERAGED, SHORT = 9, 60, 0.8
 
 
 class Resolution(NamedTuple):
@@ -84,13 +85,13 @@ def neighbours_to_average(points: FloatArray, closed: bool, deviation: float) ->
     The arc length of dense noisy points is the noise's, not the outline's, and so are the points of
     a curve that are nearest to them.
     """
-    k = SMOOTHED
+    k = min(SMOOTHED, len(points) // 20)
     if len(points) <= FEWEST_AVERAGED:
         return 1
     wide = np.concatenate([points[-k:], points, points[:k]]) if closed else points
     sums = np.cumsum(wide, axis=0)
     soft = (sums[k:] - sums[:-k]) / k
     step = median(np.hypot(*(soft[k:] - soft[:-k]).T)) / k
-    if step >= deviation:
+    if step >= SHORT * deviation:
         return 1
     return ceil((deviation / step) ** (2 / 3))

@@ -27,7 +27,7 @@ PENALTY = 3.5
 # nothing until there is a control point for each. Then it tries sizes around the best one, in steps
 # of this part of it.
 SIZE_FACTOR = 1.25
-LARGEST_PART = 0.25
+LARGEST_PART = 0.4
 PATIENCE, AT_LEAST = 3, 32
 FINEST = 0.06
 # The search for a size looks at no more points: they would tell it nothing new.
