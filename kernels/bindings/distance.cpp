@@ -76,10 +76,13 @@ void bind_distance(nb::module_ &m) {
         "vertices"_a.noconvert());
 
     m.def(
-        "count_hooks",
+        "hook_places",
         [](In2 vertices, In2 polyline, double tolerance) {
+            std::vector<std::pair<double, double>> places;
             nb::gil_scoped_release release;
-            return ss::count_hooks(vectors(vertices), vectors(polyline), tolerance);
+            const auto found = ss::hook_places(vectors(vertices), vectors(polyline), tolerance);
+            for (const ss::Vec2 p : found) places.emplace_back(p.x, p.y);
+            return places;
         },
         "vertices"_a.noconvert(), "polyline"_a.noconvert(), "tolerance"_a);
 

@@ -269,7 +269,9 @@ class RemovalSearch:
 def count_crossings(vertices: FloatArray) -> int: ...  # (k, 2), an open polyline
 
 # Of a curve by its chords (k, 2) beside a polyline (n, 2), n > 1.
-def count_hooks(vertices: FloatArray, polyline: FloatArray, tolerance: float) -> int: ...
+def hook_places(
+    vertices: FloatArray, polyline: FloatArray, tolerance: float
+) -> list[tuple[float, float]]: ...
 
 # Polyline i has the vertices from starts[i] up to starts[i + 1].
 def crossing_pairs(

@@ -362,6 +362,32 @@ def test_no_repair_and_no_joint_makes_a_hook(seed):
     assert not len(found)
 
 
+# Walks and spirals through points, lines alone, corners free, one spline; weights.
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [30302, 30555, 30783, 31821, 32855, 32950, 33018, 33533])
+def test_hooks_that_are_left_are_fitted_away(seed):
+    shape = drawn(seed)
+    asked = drawn_options(np.random.default_rng([seed, 1]), shape.points, shape.closed)
+    fit = ss.fit_curve(shape.points, **asked)
+    assert fit.kept
+    found = hooks(fit.pieces, fit.contour.points, closed=shape.closed, tolerance=fit.tolerance)
+    ends = fit.pieces[0].control_points[0], fit.pieces[-1].control_points[-1]
+    for end, wanted in zip(ends, asked.get("end_tangents", (None, None)), strict=True):
+        if wanted is not None:
+            found = found[np.hypot(*(found - end).T) > fit.tolerance]
+    assert not len(found)
+    assert "turns back" not in fit.status.value
+
+
+@pytest.mark.slow
+def test_a_hook_that_stays_is_said():
+    shape = drawn(32121)
+    asked = drawn_options(np.random.default_rng([32121, 1]), shape.points, shape.closed)
+    fit = ss.fit_curve(shape.points, **asked)
+    assert fit.kept
+    assert fit.status.value.endswith("it turns back where the data do not")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [10450, 20405, 20599])
 def test_directions_of_weights_and_of_single_splines_do_not_matter(seed):

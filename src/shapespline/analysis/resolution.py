@@ -24,7 +24,8 @@ NOISE_BAND, ACCURACY_BAND = 4.0, 3.0
 
 
 # Steps of an outline are seen between means of so many points, a twentieth of few. They are short
-# below this part of the noise: points that are averaged show less of what they are on (FIT-23).
+# below this part of the noise: points that are averaged show less of what they are on (FIT-23,
+# FIT-26).
 SMOOTHED, FEWEST_AVERAGED, SHORT = 9, 60, 0.8
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from shapespline.fitting.choose import Shortlist
 from shapespline.fitting.plan import plan
 from shapespline.fitting.problem import Problem
-from shapespline.fitting.repair import respect_weights, told, uncross
+from shapespline.fitting.repair import respect_weights, told, uncross, unhook
 from shapespline.fitting.streamed import MANY_POINTS, streamed
 from shapespline.fitting.verify import finished, verify
 
@@ -36,19 +36,42 @@ def solve(request: Request, monitor: Monitor) -> Fit:
     >>> solve(corner, Monitor()).n_stored_points
     3
     """
-    ask = partial(answer, monitor=monitor)
-    fit = None
-    chunks = request.is_plain and request.style.smoothness == 1
-    if request.tolerance is not None and chunks and len(request.contour) >= MANY_POINTS:
-        fit = streamed(request, monitor, search)
-        fit = None if fit is None else told(fit)
-    if fit is None or not (fit.kept or monitor.ended):
-        fit = ask(request)
-        if request.tolerance is not None:
-            fit = told(fit) if monitor.ended else uncross(fit, request, ask)
-    if request.tolerance is not None and request.weights is not None:
-        fit = told(respect_weights(fit, request, ask))
+    fit = answer(request, monitor) if request.tolerance is None else _within(request, monitor)
     return replace(fit, outliers=request.left_out)
+
+
+def _within(request: Request, monitor: Monitor) -> Fit:
+    """The fit within a tolerance after all repairs."""
+    fit = _streamed(request, monitor)
+    if fit is not None and (fit.kept or monitor.ended):
+        return fit
+    fit = _repaired(request, monitor)
+    if monitor.ended:
+        return fit
+    return unhook(fit, request, *(partial(one, monitor=monitor) for one in (answer, _repaired)))
+
+
+def _streamed(request: Request, monitor: Monitor) -> Fit | None:
+    """The fit of very many points in chunks, where nothing asks for more."""
+    if not request.is_plain or request.style.smoothness != 1 or len(request.contour) < MANY_POINTS:
+        return None
+    fit = streamed(request, monitor, search)
+    if fit is None:
+        return None
+    fit = told(fit)
+    if request.weights is None or not (fit.kept or monitor.ended):
+        return fit
+    return told(respect_weights(fit, request, partial(answer, monitor=monitor)))
+
+
+def _repaired(request: Request, monitor: Monitor) -> Fit:
+    """The fit within a tolerance, parted where it crosses, and as near to heavy points as asked."""
+    ask = partial(answer, monitor=monitor)
+    fit = ask(request)
+    fit = told(fit) if monitor.ended else uncross(fit, request, ask)
+    if request.weights is not None:
+        fit = told(respect_weights(fit, request, ask))
+    return fit
 
 
 def answer(request: Request, monitor: Monitor) -> Fit:

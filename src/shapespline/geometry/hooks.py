@@ -12,28 +12,29 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
 
 
-def hooks(chords: FloatArray, polyline: FloatArray, tolerance: float) -> int:
-    """Number of places where a curve turns back and the data beside it do not.
+def hooks(chords: FloatArray, polyline: FloatArray, tolerance: float) -> FloatArray:
+    """Places where a curve turns back and the data beside it do not, shape (k, 2).
 
     A hook turns by more than 90 degrees within one tolerance of the curve's length, while the data
-    turn by less than 45 within 2.5 tolerances on both sides of their nearest point.
+    turn by less than 45 within 2.5 tolerances on both sides of their nearest point. Where they pass
+    several times within a tolerance the pass that turns most counts: the curve may stand for it.
 
     Parameters
     ----------
     chords : (k, 2) array
-        The curve as an open polyline.
+        The curve as a polyline; it is looked at across its seam if it ends where it begins.
     polyline : (n, 2) array
-        The data.
+        The data, closed if they end where they begin.
     tolerance : float
         The length that both are measured by.
 
     Examples
     --------
     >>> data = np.array([(0.0, 0.0), (9.0, 0.0)])
-    >>> hooks(np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 0.1), (4.9, 0.1)]), data, 1.0)
-    1
+    >>> hooks(np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 0.1), (4.9, 0.1)]), data, 1.0).tolist()
+    [[5.0, 0.05]]
     """
-    if len(polyline) < 2:
-        return 0
+    if len(polyline) < 2 or len(chords) < 2:
+        return np.empty((0, 2))
     chords, polyline = (np.ascontiguousarray(rows, dtype=np.float64) for rows in (chords, polyline))
-    return int(_kernels.count_hooks(chords, polyline, tolerance))
+    return np.array(_kernels.hook_places(chords, polyline, tolerance)).reshape(-1, 2)

@@ -17,17 +17,17 @@ STRAIGHT = np.array([(0.0, 0.0), (10.0, 0.0)])
 def test_a_turn_is_a_hook_beyond_a_right_angle(degrees, tolerance):
     angle = np.radians(degrees)
     way = np.array([(0.0, 0.0), (5.0, 0.0), (5.0 + np.cos(angle), np.sin(angle))])
-    assert hooks(way, STRAIGHT, tolerance) == (degrees > 90)
+    assert len(hooks(way, STRAIGHT, tolerance)) == (degrees > 90)
 
 
 def test_a_turn_with_the_data_is_none():
     corner = np.array([(0.0, 0.0), (5.0, 0.0), (4.0, 1.0)])
-    assert hooks(corner, corner, 1.0) == 0
-    assert hooks(corner, STRAIGHT, 1.0) == 1
+    assert len(hooks(corner, corner, 1.0)) == 0
+    assert len(hooks(corner, STRAIGHT, 1.0)) == 1
     # A turn in steps that are longer than the tolerance is none either.
     wide = np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 2.0), (3.0, 2.0)])
-    assert hooks(wide, STRAIGHT, 1.0) == 0
-    assert hooks(wide, np.array([(3.0, 3.0)]), 9.0) == 0
+    assert len(hooks(wide, STRAIGHT, 1.0)) == 0
+    assert len(hooks(wide, np.array([(3.0, 3.0)]), 9.0)) == 0
 
 
 @pytest.mark.parametrize("folded", [False, True])
@@ -42,4 +42,24 @@ def test_as_many_as_the_outside_check_finds(at, folded):
     knots = np.concatenate([[0], np.arange(len(way)), [len(way) - 1]])
     seen = checks.hooks((knots, way, 1), flower(300).points, closed=True, tolerance=tolerance)
     assert bool(len(seen)) == folded
-    assert bool(hooks(way, data, tolerance)) == folded
+    assert bool(len(hooks(way, data, tolerance))) == folded
+
+
+def test_where_data_pass_twice_the_pass_that_turns_counts():
+    fold = np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 0.4), (0.0, 0.4)])
+    passing = np.array([(9.0, 0.1), (-3.0, 0.1)])
+    beside = np.concatenate([passing, [(-3.0, -9.0)], fold - (0.0, 0.2)])
+    assert len(hooks(fold, passing, 1.0)) == 1
+    assert len(hooks(fold, beside, 1.0)) == 0
+
+
+def test_a_hook_at_the_seam_of_a_closed_curve():
+    ring = flower(300).polyline
+    tolerance = 0.01 * float(np.hypot(*np.ptp(ring, axis=0)))
+    ahead = (ring[1] - ring[0]) / np.hypot(*(ring[1] - ring[0]))
+    spur = ring[0] - 0.4 * tolerance * ahead
+    way = np.concatenate([[spur], ring[:-1], [spur + 0.1 * tolerance * ahead, spur]])
+    assert len(hooks(ring, ring, tolerance)) == 0
+    places = hooks(way, ring, tolerance)
+    assert len(places) > 0
+    assert np.hypot(*(places - ring[0]).T).max() < tolerance

@@ -8,31 +8,35 @@
 #include <span>
 #include <vector>
 
-#include "shapespline/base/vec2.hpp"
+#include "shapespline/distance/polyline.hpp"
 
 namespace shapespline {
 
-// The largest difference of the directions of a polyline's sides within `reach` of arc length
-// about the foot of a place. Side j leads from vertex j to j + 1; the foot is on a side of from ..
-// to - 1, sides of first .. last - 1 count.
+// The nearest place of a side of a polyline, which leads from vertex `side` to the next.
+struct Foot {
+    long side;
+    double share, distance_sq;
+};
+
 template <class Vertex>
-double turn_about(Vec2 place, Vertex &&vertex, long from, long to, long first, long last,
-                  double reach) {
+Foot foot_on(Vec2 place, Vertex &&vertex, long side) {
+    const Vec2 begin = vertex(side), along = vertex(side + 1) - begin;
+    const double length_sq = norm_sq(along);
+    const double share =
+        length_sq > 0.0 ? std::clamp(dot(place - begin, along) / length_sq, 0.0, 1.0) : 0.0;
+    return {side, share, norm_sq(begin + share * along - place)};
+}
+
+// The largest difference of the directions of a polyline's sides within `reach` of arc length
+// about a foot; sides first .. last - 1 count.
+template <class Vertex>
+double turn_around(const Foot &foot, Vertex &&vertex, long first, long last, double reach) {
     const auto side = [&](long j) { return vertex(j + 1) - vertex(j); };
-    double nearest = INFINITY, share = 0.0;
-    long foot = from;
-    for (long j = from; j < to; ++j) {
-        const Vec2 begin = vertex(j), along = side(j);
-        const double length_sq = norm_sq(along);
-        const double s =
-            length_sq > 0.0 ? std::clamp(dot(place - begin, along) / length_sq, 0.0, 1.0) : 0.0;
-        const double distance_sq = norm_sq(begin + s * along - place);
-        if (distance_sq < nearest) nearest = distance_sq, share = s, foot = j;
-    }
     double low = 0.0, high = 0.0;
     for (const int way : {1, -1}) {
-        double turn = 0.0, length = (way > 0 ? 1.0 - share : share) * norm(side(foot));
-        for (long j = foot + way; length < reach && j >= first && j < last; j += way) {
+        double turn = 0.0;
+        double length = (way > 0 ? 1.0 - foot.share : foot.share) * norm(side(foot.side));
+        for (long j = foot.side + way; length < reach && j >= first && j < last; j += way) {
             const Vec2 before = side(j - way), after = side(j);
             turn += std::atan2(cross(before, after), dot(before, after));
             low = std::min(low, turn);
@@ -41,6 +45,17 @@ double turn_about(Vec2 place, Vertex &&vertex, long from, long to, long first, l
         }
     }
     return high - low;
+}
+
+// The same about the foot of a place on the sides from .. to - 1.
+template <class Vertex>
+double turn_about(Vec2 place, Vertex &&vertex, long from, long to, long first, long last,
+                  double reach) {
+    Foot nearest{from, 0.0, INFINITY};
+    for (long j = from; j < to; ++j)
+        if (const Foot foot = foot_on(place, vertex, j); foot.distance_sq < nearest.distance_sq)
+            nearest = foot;
+    return turn_around(nearest, vertex, first, last, reach);
 }
 
 // A curve in steps, shorter where it bends, and how much it turns along each.
@@ -69,21 +84,21 @@ class TurningSteps {
         steps_.push_back({0.0, norm(end - begin), begin, owner});
     }
 
-    // The number of hooks; `data_turn` of a place and owner tells how much the data turn within
-    // 2.5 tolerances on both sides of it.
+    // Where hooks are; `data_turn` of a place and owner tells how much the data turn within 2.5
+    // tolerances on both sides of it.
     template <class DataTurn>
-    long hooks(DataTurn &&data_turn) const {
-        long count = 0;
+    std::vector<Vec2> hooks(DataTurn &&data_turn) const {
+        std::vector<Vec2> places;
         for (std::size_t i = 0; i < steps_.size(); ++i) {
             const std::size_t end = sharp_from(i);
             if (end == i) continue;
             const std::size_t middle = (i + end - 1) / 2;
             const Vec2 place = 0.5 * (steps_[i].place + steps_[end - 1].place);
             if (data_turn(place, steps_[middle].owner) >= kDataTurn) continue;
-            ++count;
+            places.push_back(place);
             i = end - 1;
         }
-        return count;
+        return places;
     }
     // Windows of a tolerance whose middle is up to half of one from the turn are looked at.
     double data_reach() const { return kDataReach * tolerance_; }
@@ -152,16 +167,51 @@ class TurningSteps {
     std::vector<Step> steps_;
 };
 
-// Hooks of a curve, given by its chords, beside a data polyline.
-inline long count_hooks(std::span<const Vec2> chords, std::span<const Vec2> polyline,
-                        double tolerance) {
+// Where hooks are of a curve, given by its chords, beside a data polyline. Where data pass several
+// times within a tolerance the pass that turns most counts: the curve may stand for it. A closed
+// curve is looked at across its seam, where a hook may be named twice.
+inline std::vector<Vec2> hook_places(std::span<const Vec2> chords, std::span<const Vec2> polyline,
+                                     double tolerance) {
+    const auto is_closed = [](std::span<const Vec2> line) {
+        return line.front().x == line.back().x && line.front().y == line.back().y;
+    };
     TurningSteps turning(tolerance);
     for (std::size_t i = 0; i + 1 < chords.size(); ++i)
         turning.add_line(0, chords[i], chords[i + 1]);
+    double beyond = is_closed(chords) ? tolerance : 0.0;
+    for (std::size_t i = 0; i + 1 < chords.size() && beyond > 0.0; ++i) {
+        turning.add_line(0, chords[i], chords[i + 1]);
+        beyond -= norm(chords[i + 1] - chords[i]);
+    }
     const long n = static_cast<long>(polyline.size()) - 1;
+    const bool closed = is_closed(polyline);
+    const auto vertex = [&](long j) { return polyline[closed ? (j % n + n) % n : j]; };
+    const long first = closed ? -n : 0, last = closed ? 2 * n : n;
+    const Polyline data(polyline);
+    std::vector<Foot> near;
     return turning.hooks([&](Vec2 place, long) {
-        return turn_about(
-            place, [&](long j) { return polyline[j]; }, 0, n, 0, n, turning.data_reach());
+        const auto turn = [&](const Foot &foot) {
+            return turn_around(foot, vertex, first, last, turning.data_reach());
+        };
+        Box about;
+        about.include(place);
+        near.clear();
+        data.visit_near(about, tolerance * tolerance, [&](std::size_t j) {
+            near.push_back(foot_on(place, vertex, static_cast<long>(j)));
+        });
+        std::erase_if(near, [&](const Foot &f) { return f.distance_sq > tolerance * tolerance; });
+        std::sort(near.begin(), near.end(),
+                  [](const Foot &a, const Foot &b) { return a.side < b.side; });
+        if (near.empty())
+            return turn(foot_on(place, vertex, static_cast<long>(data.nearest(place, 0).segment)));
+        double most = 0.0;
+        for (std::size_t i = 0, end; i < near.size(); i = end) {
+            Foot nearest = near[i];
+            for (end = i + 1; end < near.size() && near[end].side == near[end - 1].side + 1; ++end)
+                if (near[end].distance_sq < nearest.distance_sq) nearest = near[end];
+            most = std::max(most, turn(nearest));
+        }
+        return most;
     });
 }
 

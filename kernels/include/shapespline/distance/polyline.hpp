@@ -53,6 +53,12 @@ class Polyline {
         return best;
     }
 
+    // Calls visit(segment) for all that may come nearer to a box than a distance.
+    template <class Visit>
+    void visit_near(const Box &box, double distance_sq, Visit &&visit) const {
+        tree_.visit_near(box, distance_sq, visit);
+    }
+
   private:
     std::span<const Vec2> vertices_;
     BoxTree tree_;

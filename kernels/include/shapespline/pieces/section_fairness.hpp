@@ -100,7 +100,7 @@ class SectionFairness {
 
     long n_hooks(std::span<const Section> sections) const {
         const long n = static_cast<long>(data_.size());
-        return turning_.hooks([&](Vec2 place, long owner) {
+        const auto places = turning_.hooks([&](Vec2 place, long owner) {
             // The foot may belong to a neighbour, or lie between two sections.
             const long count = static_cast<long>(sections.size());
             const Section &first = sections[std::max(owner - 1, 0L)];
@@ -109,6 +109,7 @@ class SectionFairness {
                 place, [&](long j) { return data_[j]; }, std::max<long>(first.first - 1, 0),
                 std::min<long>(last.last + 1, n - 1), 0, n - 1, turning_.data_reach());
         });
+    return static_cast<long>(places.size());
     }
 
     std::span<const Vec2> data_;

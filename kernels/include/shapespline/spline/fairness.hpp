@@ -145,7 +145,7 @@ long count_hooks(const SplineState<Degree> &state, const StateCurves<Degree> &pa
             [&](double u) { return part.curves[s].tangent(u); }, -1.0, 1.0,
             [](double, double, bool) {});
     const long n = search.size();
-    return turning.hooks([&](Vec2 place, long span) {
+    const auto places = turning.hooks([&](Vec2 place, long span) {
         // The foot may lie on a neighbour of the span.
         long from = state.first_data(static_cast<int>(span) - 1) - 1L;
         long to = state.first_data(static_cast<int>(span) + 2);
@@ -157,6 +157,7 @@ long count_hooks(const SplineState<Degree> &state, const StateCurves<Degree> &pa
             place, [&](long j) { return search.point(static_cast<int>(j)); }, from, to,
             search.closed ? from - n : 0, search.closed ? to + n : n - 1, turning.data_reach());
     });
+    return static_cast<long>(places.size());
 }
 
 // Hooks that there are more after a removal than before, where spans first .. last were changed.

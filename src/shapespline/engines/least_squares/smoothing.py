@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 # leave an rms distance to the truth of 0.061 / 0.052 / 0.051 / 0.055 of a box diagonal of 100
 # (LSQ-04).
 PENALTY = 3.5
-# Sizes grow by this factor, up to this part of the number of points. The search ends when so many
-# sizes in a row were no better, but not before this size: an outline with many features shows
-# nothing until there is a control point for each. Then it tries sizes around the best one, in steps
-# of this part of it.
+# Sizes grow by this factor, up to this part of the number of points (FIT-26). The search ends when
+# so many sizes in a row were no better, but not before this size: an outline with many features
+# shows nothing until there is a control point for each. Then it tries sizes around the best one, in
+# steps of this part of it.
 SIZE_FACTOR = 1.25
 LARGEST_PART = 0.4
 PATIENCE, AT_LEAST = 3, 32

@@ -184,8 +184,8 @@ def _begin(contour: Contour, curve: BSplineCurve, share: float, tolerance: float
     ends = np.searchsorted(np.concatenate([along, along + contour.length]), ahead)
     lost_ahead = n_lost[ends] - n_lost[: len(contour)]
     # By place of the segment before each point.
-    distances_sq = np.roll(_distances_sq(curve.control_points[0], contour.polyline), 1)
-    return int(np.lexsort((distances_sq, lost_ahead))[0])
+    off_sq = np.roll(distances_sq(curve.control_points[0], contour.polyline), 1)
+    return int(np.lexsort((off_sq, lost_ahead))[0])
 
 
 def _window(
@@ -207,7 +207,7 @@ def _window(
         low, high = np.maximum(at, begin).tolist()
         windows.append((low, high))
         polyline = data.points[max(low - 1, 0) : high + 1]
-        if len(polyline) > 1 and _distances_sq(node, polyline).min() <= tolerance**2:
+        if len(polyline) > 1 and distances_sq(node, polyline).min() <= tolerance**2:
             return low, high
         if low == begin and high == count:
             return windows[0]
@@ -231,10 +231,10 @@ def _cut(before: BSplineCurve, after: BSplineCurve, points: FloatArray, toleranc
 
 def _behind(node: FloatArray, polyline: FloatArray) -> int:
     """The end of the segment of a polyline that is nearest to a node."""
-    return int(_distances_sq(node, polyline).argmin()) + 1 if len(polyline) > 1 else 0
+    return int(distances_sq(node, polyline).argmin()) + 1 if len(polyline) > 1 else 0
 
 
-def _distances_sq(node: FloatArray, polyline: FloatArray) -> FloatArray:
+def distances_sq(node: FloatArray, polyline: FloatArray) -> FloatArray:
     """Squared distances of a node from the segments of a polyline."""
     begins, vectors = polyline[:-1], np.diff(polyline, axis=0)
     feet = begins + shares_of(*(node - begins).T, *vectors.T)[:, None] * vectors

@@ -1,0 +1,134 @@
+"""Hooks that a search has left: the pieces about them are asked for again, closer, or everything.
+
+Moves of the search make none (PIE-27); joints that had to be made smooth, tangents and points that
+are kept exactly, and single splines of data that turn back do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.fitting.repair.assignment import PieceAssignment, distances_sq
+from shapespline.fitting.repair.crossings import CROSSES, FOLLOWING, told
+from shapespline.fitting.repair.reading import Reading
+from shapespline.fitting.repair.refit import (
+    Refit,
+    Window,
+    fitted_again,
+    turned_apart,
+    verified_row,
+    windows_around,
+)
+from shapespline.fitting.verify import verified_fit
+from shapespline.geometry import chords, hooks
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from shapespline.fitting.request import Request
+    from shapespline.typing import FloatArray
+    from shapespline.values import Fit
+
+# Parts of the tolerance that windows are fitted within, and how many neighbours on each side go
+# with them; parts for everything, of curves of no more points (FIT-27).
+STEPS = ((0.75, 0), (0.75, 1), (0.5, 1), (0.25, 1))
+WHOLE, MOST_POINTS = (0.97, 0.9, 0.65, 0.35), 300
+# A curve is looked at by chords within this part of its tolerance; pieces this near to a hook, in
+# tolerances, are fitted again.
+SAMPLING_PART, ABOUT = 0.02, 0.5
+TURNS_BACK = "it turns back where the data do not"
+
+
+def unhook(
+    fit: Fit, request: Request, ask: Callable[[Request], Fit], whole: Callable[[Request], Fit]
+) -> Fit:
+    """A fit that turns back no more than its data, as far as other pieces bring that about.
+
+    ``ask`` answers sub-requests by the plan alone, ``whole`` with all other repairs. Where a hook
+    is left the status says so.
+    """
+    if not fit.kept or not len(_hooks_of(fit, request)):
+        return fit
+    best = fit
+    if request.is_plain and request.weights is None and request.style.smoothness == 1:
+        best = _better(best, _windows_again(best, request, ask), request)
+    if len(_hooks_of(best, request)) and fit.n_stored_points <= MOST_POINTS:
+        for part in WHOLE:
+            closer = replace(request.closer(part * fit.tolerance), weights=request.weights)
+            best = _better(best, _as_asked(fit, whole(closer)), request)
+            if not len(_hooks_of(best, request)):
+                break
+    if not len(_hooks_of(best, request)):
+        return best
+    return replace(fit, status=fit.status.saying(f"{fit.status.value}; {TURNS_BACK}"))
+
+
+def _hooks_of(fit: Fit, request: Request) -> FloatArray:
+    """Where the curve of a fit has hooks, but for tangents at its ends that were asked for."""
+    line = chords(fit.spline, SAMPLING_PART * fit.tolerance)[0]
+    places = hooks(line, fit.contour.polyline, fit.tolerance)
+    for wanted, end in zip(request.constraints.tangents, line[[0, -1]], strict=True):
+        if wanted is not None:
+            places = places[np.hypot(*(places - end).T) > fit.tolerance]
+    return places
+
+
+def _better(fit: Fit, found: Fit, request: Request) -> Fit:
+    """What was found, if it has fewer hooks, keeps the tolerance and crosses no more."""
+    if not found.kept or len(_hooks_of(found, request)) >= len(_hooks_of(fit, request)):
+        return fit
+    found = told(found)
+    if found.status.value.endswith(CROSSES) and not fit.status.value.endswith(CROSSES):
+        return fit
+    return found
+
+
+def _as_asked(fit: Fit, closer: Fit) -> Fit:
+    """A closer fit of the same points as one within the tolerance that was asked for."""
+    if not closer.kept:
+        return closer
+    found = verified_fit(
+        fit.contour,
+        closer.spline,
+        tolerance=fit.tolerance,
+        method=closer.method,
+        history=closer.history,
+        sections=closer.sections,
+    )
+    return replace(found, regularities=closer.regularities)
+
+
+def _windows_again(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
+    """A fit in pieces with those about its hooks fitted closer, in the canonical order."""
+    if fit.method not in FOLLOWING or not fit.sections or fit.regularities:
+        return fit
+    reading, refit = Reading.of(fit.contour), Refit(request, ask)
+    read = reading.fit(fit)
+    row = PieceAssignment.of(0, read)
+    for part, beside in STEPS:
+        found = _hooked_parts(row)
+        if not found:
+            break
+        if fit.closed and beside:
+            row, found = turned_apart(row, found)
+        windows = [
+            Window(begin, end, part * fit.tolerance)
+            for begin, end in windows_around(found, beside, len(row.parts))
+        ]
+        row = fitted_again(row, windows, refit)
+    return reading.restored(fit, read, verified_row(row))
+
+
+def _hooked_parts(row: PieceAssignment) -> list[int]:
+    """The parts of a row about its hooks."""
+    tolerance = row.fit.tolerance
+    places = hooks(row.line, row.fit.contour.polyline, tolerance)
+    near = (ABOUT * tolerance) ** 2
+    return [
+        k
+        for k, part in enumerate(row.parts)
+        if any(distances_sq(place, part.line).min() <= near for place in places)
+    ]
