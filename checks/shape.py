@@ -16,6 +16,9 @@ HOOK_TURN = np.radians(90)
 # ... where the data turn by less than this within so many tolerances.
 DATA_TURN = np.radians(45)
 DATA_REACH = 6
+# A pass of the data comes within a tolerance of where the curve turns, which is half a tolerance or
+# less from the place that is asked.
+NEAR = 1.5
 # Chords of a curve within one tolerance.
 CHORDS = 16
 # A piece whose slowest place has less of its middle speed than this has a near-cusp.
@@ -29,9 +32,9 @@ def hooks(curve: Any, points: Array, *, closed: bool, tolerance: float) -> Array
 
     The curve turns by more than 90 degrees within one tolerance of arc length; the data, at the
     nearest of their points, by less than 45 degrees within six. Where data pass several times
-    within a tolerance the pass that turns most counts: the curve may stand for it. Both turns are
-    the largest difference of two directions: of chords of the curve, a sixteenth of the tolerance
-    long, and of the sides of the data polyline. One place for each run of such chords.
+    within a tolerance and a half the pass that turns most counts: the curve may stand for it. Both
+    turns are the largest difference of two directions: of chords of the curve, a sixteenth of the
+    tolerance long, and of the sides of the data polyline. One place for each run of such chords.
     """
     step = tolerance / CHORDS
     even = _even(polyline_of(curve, step), step)
@@ -45,7 +48,13 @@ def hooks(curve: Any, points: Array, *, closed: bool, tolerance: float) -> Array
     last = len(even) - 1
     middles = even[middle % last if closed else np.minimum(middle, last)]
     calm = (
-        data_turn(points, middles, closed=closed, reach=DATA_REACH * tolerance, near=tolerance)
+        data_turn(
+            points,
+            middles,
+            closed=closed,
+            reach=DATA_REACH * tolerance,
+            near=NEAR * tolerance,
+        )
         < DATA_TURN
     )
     found = sharp[calm]

@@ -41,7 +41,8 @@ FAULTS = (
 COUNTED = ("hook", "near-cusp", "small radius")
 # Distances that are found by samples exceed a bound by rounding only: of coordinates, in epsilons.
 ROUNDING = 64 * np.finfo(float).eps
-# Steps of samples: parts of the tolerance, and at least so much of the box diagonal.
+# Steps of samples: parts of the tolerance, or of a bound that is less, and at least so much of the
+# box diagonal.
 STEP, CROSSING_STEP, LEAST_STEP = 1 / 5, 1 / 20, 1 / 4000
 # Hooks are looked for at tolerances from this part of the box diagonal on: each takes many chords.
 HOOKS_FROM = 0.001
@@ -94,7 +95,7 @@ def _promises(fit: ss.Fit, drawn: Drawn, options: dict[str, Any]) -> set[str]:
     tolerance, data = options["tolerance"], fit.contour.points
     slack = ROUNDING * float(np.abs(data).max())
     least = LEAST_STEP * float(np.hypot(*np.ptp(data, axis=0)))
-    step = max(STEP * tolerance, least)
+    step = max(STEP * min(tolerance, fit.hausdorff_distance), least)
     sampled = two_sided(fit.curve, data, closed=fit.contour.closed, step=step)
     found = set()
     if sampled.larger > fit.hausdorff_distance * (1 + 1e-9) + slack:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from shapespline.values import Fit
 
 # Parts of the tolerance that windows are fitted within, and how many neighbours on each side go
-# with them; parts for everything, of curves of no more points (FIT-27).
+# with them; parts for everything, of curves of no more stored points, or of no more data (FIT-27).
 STEPS = ((0.75, 0), (0.75, 1), (0.5, 1), (0.25, 1))
 WHOLE, MOST_POINTS = (0.97, 0.9, 0.65, 0.35), 300
 # A curve is looked at by chords within this part of its tolerance; pieces this near to a hook, in
@@ -55,7 +55,8 @@ def unhook(
     best = fit
     if request.is_plain and request.weights is None and request.style.smoothness == 1:
         best = _better(best, _windows_again(best, request, ask), request)
-    if len(_hooks_of(best, request)) and fit.n_stored_points <= MOST_POINTS:
+    few = min(fit.n_stored_points, len(fit.contour)) <= MOST_POINTS
+    if few and len(_hooks_of(best, request)):
         for part in WHOLE:
             closer = replace(request.closer(part * fit.tolerance), weights=request.weights)
             best = _better(best, _as_asked(fit, whole(closer)), request)
@@ -67,9 +68,13 @@ def unhook(
 
 
 def _hooks_of(fit: Fit, request: Request) -> FloatArray:
-    """Where the curve of a fit has hooks, but for tangents at its ends that were asked for."""
-    line = chords(fit.spline, SAMPLING_PART * fit.tolerance)[0]
-    places = hooks(line, fit.contour.polyline, fit.tolerance)
+    """Where the curve of a fit has hooks, but for tangents at its ends that were asked for.
+
+    In canonical order: where a hook is in a turn must not depend on the direction of the data.
+    """
+    reading, line = Reading.of(fit.contour), chords(fit.spline, SAMPLING_PART * fit.tolerance)[0]
+    way = -1 if reading.is_backwards else 1
+    places = hooks(line[::way], reading.contour(fit.contour).polyline, fit.tolerance)
     for wanted, end in zip(request.constraints.tangents, line[[0, -1]], strict=True):
         if wanted is not None:
             places = places[np.hypot(*(places - end).T) > fit.tolerance]
