@@ -19,7 +19,7 @@ pytestmark = pytest.mark.slow
 
 SQUARE = b"0,0\n1,0\n1,1\n0,1\n"
 # A million points take a second or two.
-T = np.linspace(0, 2 * np.pi, 1_000_000, endpoint=False)
+T = np.linspace(0, 2 * np.pi, 3_000_000, endpoint=False)
 
 
 @pytest.fixture
