@@ -18,7 +18,7 @@ from shapespline.studio.reading import Readers
 pytestmark = pytest.mark.slow
 
 SQUARE = b"0,0\n1,0\n1,1\n0,1\n"
-# A million points take a second or two.
+# Three million points take more than a second.
 T = np.linspace(0, 2 * np.pi, 3_000_000, endpoint=False)
 
 
