@@ -234,6 +234,19 @@ def verified_fit(
     )
 
 
+def verified_anew(fit: Fit, found: Fit) -> Fit:
+    """The curve of another fit, with what was found about it, for the data and promise of a fit."""
+    again = verified_fit(
+        fit.contour,
+        found.spline,
+        tolerance=fit.tolerance,
+        method=found.method,
+        history=found.history,
+        sections=found.sections,
+    )
+    return replace(again, regularities=found.regularities)
+
+
 def status_of(found: Distances, tolerance: float | None, run: Result | None = None) -> Status:
     """What was reached, as a sentence with figures.
 

@@ -22,7 +22,7 @@ from shapespline.fitting.repair.refit import (
     verified_row,
     windows_around,
 )
-from shapespline.fitting.verify import verified_fit
+from shapespline.fitting.verify import verified_anew
 from shapespline.geometry import chords, hooks
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def unhook(
     if few and len(_hooks_of(best, request)):
         for part in WHOLE:
             closer = replace(request.closer(part * fit.tolerance), weights=request.weights)
-            best = _better(best, _as_asked(fit, whole(closer)), request)
+            best = _better(best, verified_anew(fit, whole(closer)), request)
             if not len(_hooks_of(best, request)):
                 break
     if not len(_hooks_of(best, request)):
@@ -89,21 +89,6 @@ def _better(fit: Fit, found: Fit, request: Request) -> Fit:
     if found.status.value.endswith(CROSSES) and not fit.status.value.endswith(CROSSES):
         return fit
     return found
-
-
-def _as_asked(fit: Fit, closer: Fit) -> Fit:
-    """A closer fit of the same points as one within the tolerance that was asked for."""
-    if not closer.kept:
-        return closer
-    found = verified_fit(
-        fit.contour,
-        closer.spline,
-        tolerance=fit.tolerance,
-        method=closer.method,
-        history=closer.history,
-        sections=closer.sections,
-    )
-    return replace(found, regularities=closer.regularities)
 
 
 def _windows_again(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:

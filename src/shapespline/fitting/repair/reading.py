@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis import canonical_reading
-from shapespline.fitting.verify import verified_fit
+from shapespline.fitting.verify import verified_anew
 from shapespline.geometry import backwards, joined, reversed_curve
 from shapespline.values import Contour
 
@@ -49,15 +49,7 @@ class Reading(NamedTuple):
             return fit
         if found.sections is read.sections and found.spline is read.spline:
             return replace(fit, status=found.status)
-        turned = self._turned(found)
-        again = verified_fit(
-            fit.contour,
-            turned.spline,
-            tolerance=fit.tolerance,
-            method=found.method,
-            sections=turned.sections,
-            history=found.history,
-        )
+        again = verified_anew(fit, self._turned(found))
         return replace(again, status=found.status, outliers=fit.outliers)
 
     def _turned(self, fit: Fit) -> Fit:

@@ -22,7 +22,7 @@ from shapespline.fitting.repair.refit import (
     verified_row,
     windows_around,
 )
-from shapespline.fitting.verify import verified_fit
+from shapespline.fitting.verify import verified_anew
 from shapespline.geometry import joined, nearest
 from shapespline.values import Status
 
@@ -142,15 +142,7 @@ def _closer_whole(fit: Fit, limits: Limits, whole: Whole) -> Fit:
     again, least = fit, float(limits.lengths.min())
     for part in CLOSER:
         within = max(part * fit.tolerance, least)
-        found = whole(within, None)
-        again = verified_fit(
-            fit.contour,
-            found.spline,
-            tolerance=fit.tolerance,
-            method=found.method,
-            history=found.history,
-            sections=found.sections,
-        )
+        again = verified_anew(fit, whole(within, None))
         if within <= least or _follows(again, limits):
             break
     return again
