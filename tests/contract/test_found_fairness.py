@@ -72,9 +72,10 @@ def test_sparse_points_of_a_smooth_outline_make_no_waves(n, scale, tolerance):
     assert smooth.n_stored_points < 10
 
 
-# Ends of strokes beside themselves, one on itself; a smooth outline; weights; a comb's corners.
+# Ends of strokes beside themselves, one on itself; a smooth outline; weights; a comb's corners; a
+# row of pixels that turns by 45 degrees exactly.
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [20036, 20060, 20110, 21161, 20781, 22527])
+@pytest.mark.parametrize("seed", [20036, 20060, 20110, 21161, 20781, 22527, 71411])
 def test_no_repair_and_no_joint_makes_a_hook(seed):
     fit = attacked(seed)[1]
     assert fit.kept

@@ -12,33 +12,41 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from shapespline.engines.drawn import Feature, Observed, repeated_outlines
+from shapespline.engines.drawn import (
+    Feature,
+    Observed,
+    Outline,
+    placement_of,
+    repeated_outlines,
+)
 from shapespline.fitting.verify import verified_fit
-from shapespline.geometry import joined
+from shapespline.geometry import backwards, joined
 from shapespline.values import Arc, Piece, Regularity
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
+    from shapespline.engines.drawn import Placement
     from shapespline.typing import FloatArray
     from shapespline.values import Fit
 
     # Pieces, and what they keep.
     _Told: TypeAlias = tuple[tuple[Piece, ...], tuple[Regularity, ...]]
 
-# Copies miss each other by at most so many deviations; an outline fits badly if its root mean
-# square grows by more than these allow, as an element does (DRA-12).
-MISSED, WORSE_PART, WORSE_BY = 6.0, 1.5, 0.7
+# Copies miss each other by at most so many deviations, level edges of them by this part of the
+# outline's size; an outline fits badly if its root mean square grows by more than these allow, as
+# an element does (DRA-12).
+MISSED, LEVEL, WORSE_PART, WORSE_BY = 6.0, 1e-9, 1.5, 0.7
 DRAWN = ("line", "arc")
 # Each outline is compared with each: of more than these nothing is looked for (DRA-12).
 MOST_OUTLINES = 300
 
 
 class _Known(NamedTuple):
-    """An outline of lines and arcs: where its pieces begin, and how well its points tell it."""
+    """An outline of lines and arcs: the nodes and sizes of its pieces, how well points tell it."""
 
     fit: Fit
-    nodes: FloatArray
+    outline: Outline
     deviation: float
     centre_variance: float
     radius_variance: float
@@ -57,7 +65,13 @@ class _Known(NamedTuple):
     @property
     def centre(self) -> FloatArray:
         """Of the circle, or of the nodes."""
-        return self.nodes.mean(axis=0) if self.circle is None else np.array(self.circle.centre)
+        return self.outline.centre if self.circle is None else np.array(self.circle.centre)
+
+    @property
+    def level(self) -> list[int]:
+        """The pieces that are parallel to an axis."""
+        own = (one for one in self.fit.regularities if one.name == "axis-parallel")
+        return [piece for one in own for piece in one.pieces]
 
     @classmethod
     def of(cls, fit: Fit) -> _Known:
@@ -67,9 +81,15 @@ class _Known(NamedTuple):
         seen = Observed.of(contour, contour.accuracy if traced else None)
         deviation = max(seen.deviation, fit.rms_distance if traced else 0.0)
         mean = deviation**2 / len(seen.points)
-        nodes = np.array([piece.control_points[0] for piece in fit.sections])
+        chords = np.array([piece.control_points[[0, -1]] for piece in fit.sections])
+        middles = [
+            chord.mean(axis=0) if piece.arc is None else piece.arc.at(0.5)
+            for piece, chord in zip(fit.sections, chords, strict=True)
+        ]
+        is_arc = np.array([piece.arc is not None for piece in fit.sections])
+        outline = Outline(chords[:, 0], np.array(middles), is_arc)
         floor = seen.floor**2
-        return cls(fit, nodes, deviation, 2 * mean + floor, mean + floor)
+        return cls(fit, outline, deviation, 2 * mean + floor, mean + floor)
 
 
 def across_outlines(
@@ -133,8 +153,10 @@ class _Joint:
 
     known: dict[int, _Known]
     allowed: frozenset[str]
-    # Of each copy the outline that it is one of, and its own first piece that is that one's.
-    copies: dict[int, tuple[int, int]] = field(default_factory=dict)
+    # Of each copy the outline that it is one of, and how it lies; None of that one itself.
+    copies: dict[int, tuple[int, Placement | None]] = field(default_factory=dict)
+    # Of those that have copies: the variance of a coordinate of a node among them.
+    spread: dict[int, float] = field(default_factory=dict)
     found: list[Regularity] = field(default_factory=list)
 
     def solved(self) -> tuple[dict[int, _Told], tuple[Regularity, ...]]:
@@ -145,7 +167,7 @@ class _Joint:
         if not places:
             return {}, ()
         features = [self._feature(k) for k in places]
-        corners = np.concatenate([one.nodes for one in self.known.values()])
+        corners = np.concatenate([one.outline.nodes for one in self.known.values()])
         extent = max(float(np.ptp(corners, axis=0).max()), *(2 * one.radius for one in features))
         values, told = repeated_outlines(features, extent, self.allowed, self._angle())
         for one in told:
@@ -158,32 +180,43 @@ class _Joint:
         return moved, tuple(self.found)
 
     def _copies(self) -> None:
-        """Outlines that are one but for their places; the first of each set stands for it."""
-        heads: dict[int, list[tuple[int, float]]] = {}
-        for k, one in self.known.items():
-            if one.circle is not None:
+        """Outlines that are one but for their places; one of each set stands for it."""
+        heads: dict[int, list[int]] = {}
+        # Those with the most level edges first: where they are in others is told by them.
+        for k in sorted(self.known, key=lambda k: (-len(self.known[k].level), k)):
+            if self.known[k].circle is not None:
                 continue
-            for head, members in heads.items():
-                roll, miss = _missed(self.known[head], one)
-                if miss <= MISSED * max(one.deviation, self.known[head].deviation):
-                    members.append((k, miss))
-                    self.copies[k] = head, roll
-                    break
-            else:
-                heads[k] = []
-        for head, members in heads.items():
-            if members:
-                self.copies[head] = head, 0
-                own = (head, *(k for k, _ in members))
-                miss = max(miss for _, miss in members)
-                self.found.append(Regularity("equal-copies", own, miss))
+            head = next((head for head in heads if self._placement(head, k) is not None), None)
+            heads.setdefault(k if head is None else head, []).append(k)
+        for head, (_, *members) in heads.items():
+            placed = {k: self._placement(head, k, 1 + len(members)) for k in members}
+            own = {k: one for k, one in placed.items() if one is not None}
+            if own:
+                self.copies |= {head: (head, None)} | {k: (head, one) for k, one in own.items()}
+                self.spread[head] = float(np.mean([one.variance for one in own.values()]))
+                miss = max(one.miss for one in own.values())
+                self.found.append(Regularity("equal-copies", tuple(sorted((head, *own))), miss))
+
+    def _placement(self, head: int, k: int, n_steps: int = 0) -> Placement | None:
+        """How an outline lies as a copy of another, if its level edges are level as one."""
+        one, other = self.known[head], self.known[k]
+        deviation = max(one.deviation, other.deviation)
+        reach = MISSED * deviation
+        found = placement_of(one.outline, other.outline, deviation, reach, n_steps)
+        if found is not None and other.level:
+            nodes = _nodes(_moved(one.fit.sections, found, one.centre, other.centre))
+            sides = np.roll(nodes, -1, axis=0)[other.level] - nodes[other.level]
+            if (np.abs(sides).min(axis=1) > LEVEL * np.hypot(*sides.T)).any():
+                return None
+        return found
 
     def _feature(self, k: int) -> Feature:
         one = self.known[k]
         radius = 0.0 if one.circle is None else one.circle.radius
-        copy = self.copies.get(k, (-1, 0))[0]
+        copy = self.copies.get(k, (-1, None))[0]
         x, y = one.centre.tolist()
-        return Feature(x, y, radius, one.centre_variance, one.radius_variance, copy)
+        variance = max(one.centre_variance, self.spread.get(copy, 0.0) / len(one.outline.nodes))
+        return Feature(x, y, radius, variance, one.radius_variance, copy)
 
     def _angle(self) -> float:
         """Direction of the edges; of level ones exactly 0."""
@@ -206,34 +239,44 @@ class _Joint:
             arc = Arc((float(centre[0]), float(centre[1])), radius, own.start_angle, own.sweep)
             ends = {"begin": arc.begin, "end": arc.begin}
             return (Piece.of_arc(arc, self.known[k].fit.tolerance, **ends),), ()
-        head, roll = self.copies.get(k, (k, 0))
+        head, placement = self.copies.get(k, (k, None))
         shown = self.known[head]
-        pieces = [piece.moved(np.eye(2), centre - shown.centre) for piece in shown.fit.sections]
-        n = len(pieces)
-        kept = tuple(
-            one._replace(pieces=tuple(sorted((p + roll) % n for p in one.pieces)))
+        if placement is None:
+            moved = tuple(p.moved(np.eye(2), centre - shown.centre) for p in shown.fit.sections)
+            return moved, shown.fit.regularities
+        pieces = _moved(shown.fit.sections, placement, shown.centre, centre)
+        keeps_axes = (placement.linear == 0.0).any()
+        kept = [
+            one._replace(pieces=tuple(sorted(placement.places[list(one.pieces)].tolist())))
             for one in shown.fit.regularities
-        )
-        return tuple(pieces[(p - roll) % n] for p in range(n)), kept
+            if keeps_axes or one.name != "axis-parallel"
+        ]
+        if not keeps_axes:
+            kept += [one for one in self.known[k].fit.regularities if one.name == "axis-parallel"]
+        return _levelled(pieces, self.known[k].level), tuple(kept)
 
 
-def _missed(head: _Known, other: _Known) -> tuple[int, float]:
-    """The piece of another outline that is the first of one, and how far the two miss."""
-    a, b = head.fit.sections, other.fit.sections
-    best = 0, np.inf
-    if len(a) != len(b):
-        return best
-    for roll in range(len(b)):
-        turned = b[roll:] + b[:roll]
-        if any(p.kind != q.kind for p, q in zip(a, turned, strict=True)):
-            continue
-        off = np.roll(other.nodes, -roll, axis=0) - other.centre - (head.nodes - head.centre)
-        miss = float(np.hypot(*off.T).max())
-        for p, q in zip(a, turned, strict=True):
-            if p.arc is not None and q.arc is not None:
-                if p.arc.sweep * q.arc.sweep < 0:
-                    miss = np.inf
-                miss = max(miss, abs(p.arc.radius - q.arc.radius))
-        if miss < best[1]:
-            best = roll, miss
-    return best
+def _moved(
+    pieces: Sequence[Piece], placement: Placement, begin: FloatArray, end: FloatArray
+) -> tuple[Piece, ...]:
+    """The pieces of a copy in its own order; the centre of the original goes to its own."""
+    linear, shift = placement.linear, end - placement.linear @ begin
+    images = [piece.moved(linear, shift) for piece in pieces]
+    if placement.is_reversed:
+        images = list(backwards(images))[::-1]
+    return tuple(images[k] for k in np.argsort(placement.places))
+
+
+def _levelled(pieces: tuple[Piece, ...], level: Sequence[int]) -> tuple[Piece, ...]:
+    """Pieces with some edges level to the bit that were so but for rounding."""
+    nodes, n = _nodes(pieces), len(pieces)
+    for k in level:
+        a, b = nodes[k], nodes[(k + 1) % n]
+        axis = int(abs(a[1] - b[1]) < abs(a[0] - b[0]))
+        b[axis] = a[axis]
+    return tuple(p.meeting(nodes[k], nodes[(k + 1) % n]) for k, p in enumerate(pieces))
+
+
+def _nodes(pieces: Sequence[Piece]) -> FloatArray:
+    """Where each begins."""
+    return np.array([piece.control_points[0] for piece in pieces])

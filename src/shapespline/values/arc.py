@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 # A sweep that is nearer to a full turn than this, radians, is one: angles come in degrees, or from
 # an arc tangent, and lose a few units in the last place.
 FULL_TURN, TURN_ROUNDING = 2.0 * pi, 1e-12
+# A matrix whose determinant is this near to 1 is a motion's.
+MOTION = 1e-15
 # The twin lies within these parts of the tolerance and of the radius, or within the last where no
 # tolerance was asked for, and is never asked for more than rounding allows (VAL-02).
 TOLERANCE_PART, RADIUS_PART, READ_PART, LEAST_PART = 0.01, 1e-4, 1e-9, 1e-13
@@ -187,8 +189,10 @@ class Arc:
         return Arc(self.centre, self.radius, first, (end - begin) * self.sweep)
 
     def moved(self, linear: FloatArray, shift: FloatArray) -> Arc:
-        """The image under a similarity, p -> linear p + shift."""
+        """The image under a similarity, p -> linear p + shift; motions keep the radius."""
         factor = sqrt(abs(float(np.linalg.det(linear))))
+        if abs(factor - 1.0) <= MOTION:
+            factor = 1.0
         angle, mirrored = atan2(linear[1, 0], linear[0, 0]), np.linalg.det(linear) < 0
         sign = -1.0 if mirrored else 1.0
         centre = (linear @ np.asarray(self.centre) + shift).tolist()

@@ -1,6 +1,7 @@
 """The drawn engine: lines, arcs and free-form runs, with what a drawing repeats."""
 
 from shapespline.engines.drawn.across import Feature, repeated_outlines
+from shapespline.engines.drawn.copies import Outline, Placement, placement_of
 from shapespline.engines.drawn.engine import as_drawn
 from shapespline.engines.drawn.observed import ONE_BIT, Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
@@ -16,7 +17,10 @@ __all__ = [
     "Feature",
     "FreeRun",
     "Observed",
+    "Outline",
+    "Placement",
     "as_drawn",
+    "placement_of",
     "repeated_outlines",
     "simplified",
 ]
