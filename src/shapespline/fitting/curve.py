@@ -105,8 +105,9 @@ def fit_curve(
     regularities : "auto", None or sequence of str
         As it was drawn, what lines and arcs may keep exactly where the data allow it: "tangent",
         "rotation", "mirror", "axis-parallel", "parallel", "perpendicular", "concentric",
-        "equal-radius", "collinear"; among the outlines of a shape also "equal-copies" and
-        "equal-spacing"; all of these, none, or some. ``fit.regularities`` lists them.
+        "equal-radius", "collinear", "equal-length"; among the outlines of a shape also
+        "equal-copies" and "equal-spacing"; all of these, none, or some. ``fit.regularities`` lists
+        them.
     simplify : bool
         With "drawn", leave out features that the tolerance does not need: a fillet becomes a
         corner, an arc a line; equal features stay equal.

@@ -196,7 +196,12 @@ def _drawn(model: Model, found: list[Regularity], tolerance: float, told: bool) 
             last += 1
         parts.append(_free_run(model, k, last, nodes))
         k = last + 1
-    kept = tuple(one._replace(pieces=tuple(place[s] for s in one.pieces)) for one in found)
+    cut = {k for k in model.at if (begins[k] != nodes[k - 1]).any() or (ends[k] != nodes[k]).any()}
+    kept = tuple(
+        one._replace(pieces=tuple(place[s] for s in one.pieces))
+        for one in found
+        if one.name != "equal-length" or cut.isdisjoint(one.pieces)
+    )
     return Drawn(tuple(parts), kept, told, model.n_free)
 
 

@@ -125,7 +125,7 @@ def repeated(model: Model, found: list[Regularity]) -> float:
     """How much a drawing repeats, for each element.
 
     Any smooth outline has straight stretches, and noisy ones make corners of their own; what people
-    draw is level, parallel, equal or symmetric.
+    draw is level, parallel, equal or symmetric. Equal lengths often follow from that.
     """
     n, said = len(model.at), 0.0
     if len(model.row.found) == 1:  # one arc from end to end, as a whole circle
@@ -133,6 +133,6 @@ def repeated(model: Model, found: list[Regularity]) -> float:
     for one in found:
         if one.name in ("rotation", "mirror"):
             said += n * (1.0 - 1.0 / one.order)
-        else:
+        elif one.name != "equal-length":
             said += 1.0 if one.name != "tangent" else SAID_BY_TOUCH * (n == len(model.row.found))
     return said / n

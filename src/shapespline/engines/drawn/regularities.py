@@ -21,6 +21,7 @@ from shapespline.engines.drawn.constraints import (
     equations,
 )
 from shapespline.engines.drawn.joints import meeting, turn_at
+from shapespline.engines.drawn.lengths import Edge, EqualLengths
 from shapespline.engines.drawn.segments import ARC, LINE
 from shapespline.engines.drawn.symmetry import symmetries
 from shapespline.values import Regularity
@@ -42,6 +43,7 @@ NAMES = (
     "concentric",
     "equal-radius",
     "collinear",
+    "equal-length",
     "equal-copies",
     "equal-spacing",
 )
@@ -52,6 +54,9 @@ LARGEST, LARGEST_TANGENT, LEAST_SURPRISE = 9.0, 16.0, 1.0
 EACH_OF_SEVERAL = 0.75
 # Joints that turn by less may be tangent; directions, radians, and radii, parts, that may agree.
 TANGENT_TURN, DIRECTIONS, RADII = 0.35, 0.03, 0.25
+# Deviations by which lengths that agree may differ: what flat corners tell is no witness
+# (DRA-21).
+LENGTHS = 3.0
 # An element fits badly after a family of regularities if its misfit, in deviations, grows by more
 # than these allow (DRA-04).
 WORSE_PART, WORSE_BY, ANYHOW = 1.5, 0.7, 1.5
@@ -84,6 +89,7 @@ class Search:
         self._family("concentric", self._centres)
         self._family("equal-radius", self._radii)
         self._family("collinear", self._collinear)
+        self._family("equal-length", self._lengths)
         return self.found
 
     def _family(self, name: str, tried: Callable[[], Iterator[Regularity]]) -> None:
@@ -210,6 +216,30 @@ class Search:
                 if self.takes(equation, model.extent):
                     yield Regularity("collinear", (head, k), off)
                     break
+
+    def _lengths(self) -> Iterator[Regularity]:
+        model = self.model
+        edges = {k: edge for k in model.at if (edge := Edge.of(model, k)) is not None}
+        heads: dict[int, list[int]] = {}
+        furthest: dict[int, float] = {}
+        # Any two of many may agree by chance: each has its part of the range.
+        span = model.extent / max(len(edges), 1)
+        for k in sorted(edges, key=lambda k: -edges[k].length(model.x)[0]):
+            length = edges[k].length(model.x)[0]
+            for head, own in heads.items():
+                off = length - edges[head].length(model.x)[0]
+                if abs(off) > LENGTHS * model.seen.deviation:
+                    continue
+                if self.takes(EqualLengths(edges[head], edges[k]), span):
+                    own.append(k)
+                    furthest[head] = max(furthest.get(head, 0.0), abs(off))
+                    break
+            else:
+                heads[k] = [k]
+        for head, own in heads.items():
+            # Those of a rectangle, or of what is turned onto itself, follow from the rest.
+            if len(own) > 1 and furthest[head] > MET * model.extent:
+                yield Regularity("equal-length", tuple(sorted(own)), furthest[head])
 
     def _best_known(self, kind: int, offset: int) -> list[int]:
         """Elements of a kind, first those whose unknown at an offset is known best."""

@@ -62,10 +62,12 @@ def simplified(drawn: Drawn, distance: float) -> Drawn:
     if not changed:
         return drawn
     place = {k: i for i, k in enumerate(k for k, part in enumerate(parts) if part is not None)}
+    beside = {(k + off) % len(parts) for k in changed for off in (-1, 1)}
     kept = tuple(
         one._replace(pieces=tuple(place[k] for k in one.pieces if k in place))
         for one in drawn.regularities
-        if one.name not in OF_ARCS or changed.isdisjoint(one.pieces)
+        if not (changed & set(one.pieces) and one.name in OF_ARCS)
+        and not (beside & set(one.pieces) and one.name == "equal-length")
     )
     left = tuple(part for part in parts if part is not None)
     return replace(drawn, parts=left, regularities=kept)
