@@ -1,5 +1,12 @@
 // What points tell before any fit.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+
+#include <optional>
+#include <utility>
+
 #include "arrays.hpp"
+#include "shapespline/analysis/canonical_reading.hpp"
 #include "shapespline/analysis/centroid_distance.hpp"
 #include "shapespline/analysis/corner_turn.hpp"
 #include "shapespline/analysis/cpda.hpp"
@@ -24,6 +31,41 @@ void bind_analysis(nb::module_ &m) {
             ss::analysis::centroid_distances_sq(vectors(points), distances_sq.data());
         },
         "points"_a.noconvert(), "distances_sq"_a.noconvert());
+
+    m.def(
+        "canonical_reading",
+        [](In2 points, bool closed, std::optional<In1> weights) {
+            nb::gil_scoped_release release;
+            const auto heavy = weights ? numbers(*weights) : std::span<const double>{};
+            const auto reading = ss::analysis::canonical_reading(vectors(points), heavy, closed);
+            return std::pair{reading.start, reading.step};
+        },
+        "points"_a.noconvert(), "closed"_a, "weights"_a.noconvert().none() = nb::none());
+
+    using ss::analysis::PosedContour;
+    nb::class_<PosedContour>(m, "PosedContour")
+        .def(
+            "__init__",
+            [](PosedContour *self, In2 points, bool closed, double radius, double fine,
+               double finest, OutPoints out) {
+                nb::gil_scoped_release release;
+                new (self)
+                    PosedContour(vectors(points), closed, radius, fine, finest, vectors(out));
+            },
+            "points"_a.noconvert(), "closed"_a, "radius"_a, "fine"_a, "finest"_a,
+            "out"_a.noconvert())
+        .def_prop_ro("start", [](const PosedContour &self) { return self.reading.start; })
+        .def_prop_ro("step", [](const PosedContour &self) { return self.reading.step; })
+        .def_prop_ro("middle",
+                     [](const PosedContour &self) {
+                         return std::pair{self.pose.middle.x, self.pose.middle.y};
+                     })
+        .def_prop_ro(
+            "axis",
+            [](const PosedContour &self) { return std::pair{self.pose.axis.x, self.pose.axis.y}; })
+        .def_prop_ro("side", [](const PosedContour &self) { return self.pose.side; })
+        .def_prop_ro("scale", [](const PosedContour &self) { return self.pose.scale; })
+        .def_ro("apart", &PosedContour::apart);
 
     m.def(
         "corner_turns",

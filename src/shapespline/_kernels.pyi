@@ -165,6 +165,37 @@ def corner_turns(
     turns: FloatArray,  # out (n,)
 ) -> None: ...
 def centroid_distances_sq(points: FloatArray, distances_sq: FloatArray) -> None: ...  # (n, 2), (n,)
+def canonical_reading(
+    points: FloatArray,  # (n, 2)
+    closed: bool,
+    weights: FloatArray | None = None,  # (n,)
+) -> tuple[int, int]: ...  # first index, 1 or -1
+
+class PosedContour:
+    def __init__(
+        self,
+        points: FloatArray,  # (n, 2)
+        closed: bool,
+        radius: float,
+        fine: float,  # of the grid, in the unit of the points
+        finest: float,  # of the grid, where the radius is as long as said
+        out: FloatArray,  # (n, 2)
+    ) -> None: ...
+    @property
+    def start(self) -> int: ...
+    @property
+    def step(self) -> int: ...
+    @property
+    def middle(self) -> tuple[float, float]: ...
+    @property
+    def axis(self) -> tuple[float, float]: ...
+    @property
+    def side(self) -> float: ...
+    @property
+    def scale(self) -> float: ...
+    @property
+    def apart(self) -> bool: ...
+
 def thinned(
     points: FloatArray, distance: float, longest: float, marked: IntArray | None
 ) -> list[int]: ...  # indices that stay

@@ -85,6 +85,21 @@ def test_turned_mirrored_and_scaled_outlines_need_as_many_points(all_outlines):
     assert abs(two.sum() / one.sum() - 1) <= 0.03
 
 
+@pytest.mark.slow
+def test_the_fewest_points_hang_on_neither_turn_nor_mirror_nor_scale(all_outlines):
+    for name, contour in all_outlines:
+        tolerance = 0.001 * contour.box_diagonal
+        fit = fit_curve(contour, tolerance=tolerance, character="fewest")
+        data = moved(contour.points, angle=2.0, scale=0.37) * (-1, 1)
+        again = fit_curve(
+            data, closed=contour.closed, tolerance=0.37 * tolerance, character="fewest"
+        )
+        # The search sees the same points to the bit (ANA-16); what is verified after it is in data
+        # units, and a distance a rounding from the tolerance asks for another search.
+        ratio = again.n_stored_points / fit.n_stored_points
+        assert ratio == pytest.approx(1.0, abs=0.05), name
+
+
 @pytest.mark.parametrize(("shift", "reversed_"), [(123_456, False), (0, True), (200_001, True)])
 @pytest.mark.slow
 def test_the_first_point_and_the_direction_of_many_points_do_not_matter(shift, reversed_):

@@ -1,27 +1,25 @@
-"""The order and the unit in which a contour is fitted, whatever those it was given in.
+"""The order, unit and pose in which a contour is fitted, whatever those it was given in.
 
-The order is a canonical form (the least rotation and direction in the dictionary), the unit a power
-of two. Thinning is cone intersection (Williams 1978), one pass over the points.
+The order is a canonical form (the greatest rotation and direction of the distances from the mean),
+the pose that of the farthest point. Thinning is cone intersection (Williams 1978), one pass over
+the points.
 """
 
 from __future__ import annotations
 
-from math import frexp, ldexp
+from math import floor, frexp, ldexp
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline import _kernels
 from shapespline.analysis.run_averages import averaged
-from shapespline.geometry import backwards
+from shapespline.geometry import backwards, reversed_curve
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from shapespline.typing import FloatArray, IntArray
     from shapespline.values import BSplineCurve, Piece
-from shapespline.geometry import reversed_curve
 
 # Thinning leaves out points within this part of the tolerance from the polyline without them, but
 # makes no chord longer than this part of the extent. It leaves out none of so few points, and none
@@ -38,20 +36,28 @@ MOST_SCATTER = 0.9
 # to thin it by, where so small a part of its points stays: of noise most stay (ANA-14).
 COARSER_THINNINGS = (0.03, 0.1)
 FEW_LEFT = 0.25
-# The canonical order compares all readings of an outline by so many distances at once, then two by
-# two.
-HEAD = 16
+# The farthest point of a posed contour lies so far from the origin. Its points lie on a grid of
+# this part of the tolerance, but no finer than the second of the size: where a contour lies and
+# how large it is changes rounding alone, which the grid hides (ANA-16).
+RADIUS = 32.0
+GRID, FINEST_GRID, NO_GRID = (2.0**-k for k in (16, 40, 60))
+# Lengths beside it keep so many steps of their first binary digit.
+LENGTH_STEPS = 2.0**32
 
 
 class NormalizedContour(NamedTuple):
-    """A contour in the order and the unit in which it is fitted.
+    """A contour in the order, unit and pose in which it is fitted.
 
-    ``contour`` has its middle at the origin, a box diagonal between 64 and 128 (the scale is a
-    power of two, exact), and an order that does not depend on where the data begin and which way
-    they run. ``order`` (n,) are the indices of its points in the data. ``reversed`` tells that the
-    data run the other way; what is restored runs the way they do. One that was `thinned` holds some
-    of the points, or averages, and ``error_used`` is how far its polyline lies from that of all: so
-    much of the tolerance is used.
+    `of` keeps the axes: ``contour`` has the middle of its box at the origin and a box diagonal
+    between 64 and 128, its unit is a power of two, exact. `posed` does not: the mean is the origin,
+    the farthest point on the first axis, and a turned, mirrored or scaled contour is the same. The
+    order does not depend on where the data begin and which way they run.
+
+    A point p of the data is ``scale * turn @ (p - middle)``. ``order`` (n,) are the indices of the
+    points in ``data``, None where the points are none of them. ``reversed`` tells that the data run
+    the other way; what is restored runs the way they do. One that was `thinned` holds some of the
+    points, or averages, and ``error_used`` is how far its polyline lies from that of all: so much
+    of the tolerance is used.
 
     Examples
     --------
@@ -60,18 +66,25 @@ class NormalizedContour(NamedTuple):
     >>> a, b = NormalizedContour.of(square), NormalizedContour.of(turned)
     >>> bool((a.contour.points == b.contour.points).all())
     True
+    >>> kite = Contour([(0, -3), (2, 0), (0, 1), (-2, 0)], closed=True)
+    >>> far = Contour(3.7 * kite.points @ [[0.6, 0.8], [-0.8, 0.6]] + 5, closed=True)
+    >>> a, b = NormalizedContour.posed(kite, 0.1), NormalizedContour.posed(far, 0.37)
+    >>> bool((a.contour.points == b.contour.points).all())
+    True
     """
 
     contour: Contour
     order: IntArray
     middle: FloatArray
     scale: float
+    turn: FloatArray
     reversed: bool
+    data: Contour | None
     error_used: float = 0.0
 
     @classmethod
     def of(cls, contour: Contour) -> NormalizedContour:
-        """A contour normalized."""
+        """A contour normalized, its axes as they are."""
         points = contour.points
         start, step = canonical_reading(points, closed=contour.closed)
         order = (start + step * np.arange(len(points))) % len(points)
@@ -83,14 +96,30 @@ class NormalizedContour(NamedTuple):
             # Neighbours so close that they fall together far from the origin: leave the origin.
             middle = np.zeros(2)
             moved = points[order] * scale
-        accuracy = None if contour.accuracy is None else contour.accuracy * scale
-        work = Contour.trusted(moved, contour.closed, accuracy)
-        return cls(work, order, middle, scale, step < 0)
+        work = Contour.trusted(moved, contour.closed, _scaled(contour.accuracy, scale))
+        return cls(work, order, middle, scale, np.eye(2), step < 0, contour)
+
+    @classmethod
+    def posed(cls, contour: Contour, tolerance: float) -> NormalizedContour:
+        """A contour in canonical pose, for a search within a tolerance (data units)."""
+        points, closed = contour.points, contour.closed
+        moved = np.empty_like(points)
+        for fine, finest in ((GRID * tolerance, FINEST_GRID), (0.0, NO_GRID)):
+            found = _kernels.PosedContour(points, closed, RADIUS, fine, finest * RADIUS, moved)
+            if found.apart:
+                break
+        else:
+            return cls.of(contour)
+        order = (found.start + found.step * np.arange(len(points))) % len(points)
+        (c, s), side = found.axis, found.side
+        turn = np.array([[c, s], [-side * s, side * c]])
+        work = Contour.trusted(moved, closed, _scaled(contour.accuracy, found.scale))
+        return cls(work, order, np.array(found.middle), found.scale, turn, found.step < 0, contour)
 
     @classmethod
     def of_working(cls, contour: Contour) -> NormalizedContour:
         """A contour that is in canonical order and unit already."""
-        return cls(contour, np.arange(len(contour)), np.zeros(2), 1.0, False)
+        return cls(contour, np.arange(len(contour)), np.zeros(2), 1.0, np.eye(2), False, None)
 
     def thinned(self, tolerance: float, marked: IntArray) -> NormalizedContour:
         """The same without the points that a search within a tolerance does not need.
@@ -115,6 +144,7 @@ class NormalizedContour(NamedTuple):
                 return self._replace(
                     contour=Contour.trusted(found.nodes, work.closed, work.accuracy),
                     order=self.order[found.indices],
+                    data=None,
                     error_used=found.error_bound,
                 )
         if len(kept_indices) > WORTH_THINNING * len(work):
@@ -139,10 +169,18 @@ class NormalizedContour(NamedTuple):
         )
 
     def taken_over(self, contour: Contour) -> Contour:
-        """Another contour in this unit, in its own order."""
-        moved = (contour.points - self.middle) * self.scale
-        accuracy = None if contour.accuracy is None else contour.accuracy * self.scale
-        return Contour.trusted(moved, contour.closed, accuracy)
+        """Another contour in this unit and pose, in its own order."""
+        moved = _turned(contour.points - self.middle, self.turn) * self.scale
+        return Contour.trusted(moved, contour.closed, _scaled(contour.accuracy, self.scale))
+
+    def length(self, given: float) -> float:
+        """A length of the data in this unit, to so many digits that rounding does not change it."""
+        mantissa, exponent = frexp(given * self.scale)
+        return ldexp(floor(mantissa * LENGTH_STEPS), exponent) / LENGTH_STEPS
+
+    def direction(self, given: FloatArray) -> FloatArray:
+        """A direction (2,) of the data in this pose."""
+        return _turned(given[None], self.turn)[0]
 
     @property
     def extent(self) -> float:
@@ -158,22 +196,48 @@ class NormalizedContour(NamedTuple):
         return index
 
     def restored(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
-        """Pieces in the unit and direction of the data."""
-        linear = np.eye(2) / self.scale
+        """Pieces where the data are and the way they run."""
+        linear, sizes = self.turn.T / self.scale, [len(piece.control_points) for piece in pieces]
+        points = self._restored_points(np.concatenate([p.control_points for p in pieces]))
         pieces = tuple(
             piece._replace(
-                control_points=piece.control_points / self.scale + self.middle,
+                control_points=control_points,
                 arc=None if piece.arc is None else piece.arc.moved(linear, self.middle),
             )
-            for piece in pieces
+            for piece, control_points in zip(
+                pieces, np.split(points, np.cumsum(sizes[:-1])), strict=True
+            )
         )
         return backwards(pieces) if self.reversed else pieces
 
     def restored_curve(self, curve: BSplineCurve) -> BSplineCurve:
-        """A curve over [0, 1] in the unit and direction of the data."""
-        control_points = curve.control_points / self.scale + self.middle
+        """A curve over [0, 1] where the data are and the way they run."""
+        control_points = self._restored_points(curve.control_points)
         moved = type(curve).trusted(curve.knots, control_points, curve.degree, curve.periodic)
         return reversed_curve(moved) if self.reversed else moved
+
+    def _restored_points(self, points: FloatArray) -> FloatArray:
+        """Points in data units; those that are points of the contour are the data's to the bit."""
+        restored = _turned(points, self.turn.T) / self.scale + self.middle
+        if self.data is not None:
+            own, wanted = (p[:, 0] + 1j * p[:, 1] for p in (self.contour.points, points))
+            sorter = np.argsort(own)
+            at = np.searchsorted(own, wanted, sorter=sorter)
+            at = sorter[np.minimum(at, len(own) - 1)]
+            same = own[at] == wanted
+            restored[same] = self.data.points[self.order[at[same]]]
+        return restored
+
+
+def _turned(points: FloatArray, turn: FloatArray) -> FloatArray:
+    """Rows turned one by one: equal ones stay equal, which products of matrices do not promise."""
+    (a, b), (c, d) = turn.tolist()
+    x, y = points[:, 0], points[:, 1]
+    return np.column_stack([a * x + b * y, c * x + d * y])
+
+
+def _scaled(length: float | None, scale: float) -> float | None:
+    return None if length is None else length * scale
 
 
 def canonical_reading(
@@ -183,44 +247,13 @@ def canonical_reading(
 
     Closed outlines are read from a point that is farthest from their mean, open ones from the end
     that is farther; of the ways that are left the one is taken whose distances from the mean come
-    first in the dictionary, or of equals whose coordinates do, or whose weights do. So a turned or
-    mirrored outline is read like the outline, but for rounding.
+    last in the dictionary, or of equals whose coordinates come first, or whose weights do. So a
+    turned or mirrored outline is read like the outline.
+
+    References
+    ----------
+    Booth 1980 (least rotation).
     """
-    away = np.empty(len(points))
-    _kernels.centroid_distances_sq(points, away)
-    farthest = away.max() if closed else max(away[0], away[-1])
-    starts = np.flatnonzero(away == farthest).tolist()
-    last = len(points) - 1
-    readings = [(start, 1) for start in starts if closed or start == 0]
-    readings += [(start, -1) for start in starts if closed or start == last]
-    readings = _first_in_head(away, np.array(readings))
-    best = readings[0]
-    keys = (away[:, None], points) if weights is None else (away[:, None], points, weights[:, None])
-    for reading in readings[1:]:
-        if _comes_first(keys, reading, best):
-            best = reading
-    return best
-
-
-def _first_in_head(away: FloatArray, readings: IntArray) -> list[tuple[int, int]]:
-    """The readings that are first by their first few distances: of a circle many start alike."""
-    for k in range(HEAD):
-        if len(readings) == 1:
-            break
-        at = (readings[:, 0] + k * readings[:, 1]) % len(away)
-        readings = readings[away[at] == away[at].min()]
-    return [(int(start), int(step)) for start, step in readings]
-
-
-def _comes_first(keys: Sequence[FloatArray], a: tuple[int, int], b: tuple[int, int]) -> bool:
-    """Whether one way to read rows, from a start by steps, stands before another."""
-    for rows in keys:
-        n, begin, end = len(rows), 0, 16
-        while begin < n:
-            index = np.arange(begin, min(end, n))
-            mine, yours = (rows[(start + step * index) % n].ravel() for start, step in (a, b))
-            differ = np.flatnonzero(mine != yours)
-            if len(differ):
-                return bool(mine[differ[0]] < yours[differ[0]])
-            begin, end = end, 2 * end
-    return False
+    if weights is not None:
+        weights = np.ascontiguousarray(weights)
+    return _kernels.canonical_reading(np.ascontiguousarray(points), closed, weights)

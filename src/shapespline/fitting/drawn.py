@@ -57,7 +57,7 @@ class DrawnPieces:
         """One curve, if the data tell of lines and arcs; a simpler one too, if asked for."""
         contour, style = problem.contour, problem.request.style
         within = problem.tolerance if self.shown is None else self.shown.band
-        normalized = problem.ordered
+        normalized = problem.upright
         scale = normalized.scale
         accuracy = None if contour.level_line is None else contour.accuracy
         found = as_drawn(
@@ -93,7 +93,7 @@ class DrawnPieces:
         self, problem: Problem, found: Drawn, within: float, monitor: Monitor
     ) -> Candidate | None:
         """Parts as pieces; None where a run was not fitted."""
-        normalized = problem.ordered
+        normalized = problem.upright
         pieces, kept = self._pieces(problem, found, within * normalized.scale, monitor)
         if not pieces:
             return None

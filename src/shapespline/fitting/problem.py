@@ -62,23 +62,22 @@ class Problem:
         """The same without the points that a search does not need."""
         return self.pieces.thinned()
 
+    @property
+    def normalized(self) -> NormalizedContour:
+        """The contour in canonical order and pose."""
+        return self.pieces.normalized
+
     @cached_property
-    def ordered(self) -> NormalizedContour:
-        """The contour in canonical order and unit, whatever the goal."""
-        if self.request.tolerance is not None:
-            return self.normalized
+    def upright(self) -> NormalizedContour:
+        """The contour in canonical order and unit, its axes kept, whatever the goal."""
         return NormalizedContour.of(self.contour)
 
     @property
-    def normalized(self) -> NormalizedContour:
-        """The contour in canonical order and unit."""
-        return self.pieces.normalized
-
-    @property
     def seen(self) -> Contour:
-        """The points as they came, in canonical unit, where vertices stand for them."""
-        dense = None if self.request.tolerance is None else self.pieces.dense
-        return self.ordered.contour if dense is None else dense
+        """The points as they came, in the unit of `upright`, where vertices stand for them."""
+        if self._dense is self.request.contour:
+            return self.upright.contour
+        return self.upright.taken_over(self._dense)
 
     @property
     def has_corners(self) -> bool:
@@ -90,7 +89,9 @@ class Problem:
     @property
     def has_straight_runs(self) -> bool:
         """Whether some of the data, as they came, are straight, or too noisy to tell."""
-        return has_straight_runs(self.seen, self.pieces.tolerance)
+        dense = self.pieces.dense
+        seen = self.normalized.contour if dense is None else dense
+        return has_straight_runs(seen, self.pieces.tolerance)
 
     @property
     def looks_smooth(self) -> bool:

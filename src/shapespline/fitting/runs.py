@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from shapespline.monitor import Monitor
     from shapespline.typing import FloatArray, IntArray
 
+# A corner is one of n places: two runs must be cheaper than one by so many log n (FIT-28).
+CORNER_PRICE = 1.5
+
 
 class Runs:
     """A contour cut at corners, each run smoothed once."""
@@ -30,7 +33,7 @@ class Runs:
         kept = found.indices.tolist()
         for corner in sorted(kept, key=lambda i: float(found.turns[i])):
             others = [i for i in kept if i != corner]
-            price = np.log(len(self._contour))
+            price = CORNER_PRICE * np.log(len(self._contour))
             if self._cost(others, near=corner) <= self._cost(kept, near=corner) + price:
                 kept = others
         return np.array(kept, dtype=np.int64)

@@ -132,8 +132,8 @@ def _pieces_problem(
 ) -> PiecesProblem:
     """What the search knows: corners found in the sample, if any may be, are vertices near by."""
     tolerance, constraints = request.tolerance or 0.0, request.constraints
-    normalized = NormalizedContour.of(thinned)
-    seen, scaled = normalized.taken_over(sample), tolerance * normalized.scale
+    normalized = NormalizedContour.posed(thinned, tolerance)
+    seen, scaled = normalized.taken_over(sample), normalized.length(tolerance)
     n = len(thinned)
     empty = np.empty(0, dtype=np.int64)
     if request.style.corners is None:

@@ -110,8 +110,8 @@ class TurningSteps {
     static constexpr double kLargestTurn = 0.35, kShort = 1e-3;
     static constexpr double kHookTurn = 0.5 * std::numbers::pi;
     // Half of six tolerances less the half that windows are shifted by (PIE-27). Rows of pixels
-    // turn by the limit itself: that is no excuse for a hook.
-    static constexpr double kDataTurn = 0.25 * std::numbers::pi * (1 + 1e-9), kDataReach = 2.5;
+    // turn by the limit itself, up to the grid of a pose: that is no excuse for a hook.
+    static constexpr double kDataTurn = 0.25 * std::numbers::pi * (1 + 1e-3), kDataReach = 2.5;
 
     struct Step {
         double turn, length;

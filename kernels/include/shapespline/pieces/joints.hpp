@@ -98,9 +98,9 @@ class JointSmoother {
         ring_.at(i).tangent = true;
         const bool at_end = ring_.at(i).at_end;
         const std::vector<int> raise{at_end ? 2 : 0, at_end ? 0 : 2};
-        only_fair_ = false;  // it is required
+        asks_ = Asks::kNothing;  // it is required
         if (!align(i - 1, i, raise)) ring_.at(i).tangent = false;
-        only_fair_ = true;
+        asks_ = Asks::kFair;
     }
 
     // Fits the chain of tangent joints from section i as a whole; where the tolerance forbids it,
@@ -151,10 +151,10 @@ class JointSmoother {
         ring_.at(k).tangent = true;
         refused_ = false;
         if (align_by(k, raises)) return;
-        // A turn is seen more than a section that nearly stands still somewhere.
-        only_fair_ = false;
+        // A turn is seen more than a section that nearly stands still somewhere, less than a hook.
+        asks_ = required ? Asks::kNothing : Asks::kNoHook;
         ring_.at(k).tangent = refused_ && align_by(k, raises);
-        only_fair_ = true;
+        asks_ = Asks::kFair;
     }
 
     bool align_by(long k, const std::vector<std::pair<int, int>> &raises) {
@@ -252,7 +252,8 @@ class JointSmoother {
         const LawsonResult result =
             LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits).run();
         if (!result.kept) return false;
-        if (only_fair_ && !fairness_.may_replace(ring_, i0, i1, result.sections)) {
+        if (asks_ != Asks::kNothing &&
+            !fairness_.may_replace(ring_, i0, i1, result.sections, asks_ == Asks::kFair)) {
             refused_ = true;
             return false;
         }
@@ -268,7 +269,10 @@ class JointSmoother {
     std::set<Index> failed_;
     bool turned_ = false;
     SectionFairness fairness_{data_, tolerance_};
-    bool only_fair_ = true, refused_ = false;
+    // What sections that make a joint smooth must not have: near-cusps and hooks, or hooks.
+    enum class Asks { kFair, kNoHook, kNothing };
+    Asks asks_ = Asks::kFair;
+    bool refused_ = false;
 };
 
 }  // namespace shapespline::pieces

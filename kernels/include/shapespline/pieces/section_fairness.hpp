@@ -25,8 +25,9 @@ class SectionFairness {
     }
 
     // Whether the sections i0 .. i1 of a ring may become others: there are no more near-cusps and
-    // hooks than before, the joints with their neighbours among them.
-    bool may_replace(const SectionRing &ring, long i0, long i1, std::span<const Section> fresh) {
+    // hooks than before, the joints with their neighbours among them; or no more hooks.
+    bool may_replace(const SectionRing &ring, long i0, long i1, std::span<const Section> fresh,
+                     bool near_cusps_count = true) {
         const bool all = i1 - i0 + 1 == ring.size();
         const long before = !all && ring.has(i0 - 1), after = !all && ring.has(i1 + 1);
         std::vector<Section> old = ring.window(i0 - before, i1 + after);
@@ -43,13 +44,13 @@ class SectionFairness {
         if (ring.closed() && now.back().last >= n)
             for (auto *sections : {&old, &now})
                 for (Section &section : *sections) section = moved(section, -ring.period());
-        const long found = n_unfair(now);
-        return found == 0 || found <= n_unfair(old);
+        const long found = n_unfair(now, near_cusps_count);
+        return found == 0 || found <= n_unfair(old, near_cusps_count);
     }
 
-    // Near-cusps and hooks of sections end to end. A direction that was asked for may need a turn
-    // that the data have not: beside it all is fair.
-    long n_unfair(std::span<const Section> sections) {
+    // Near-cusps, if they count, and hooks of sections end to end. A direction that was asked for
+    // may need a turn that the data have not: beside it all is fair.
+    long n_unfair(std::span<const Section> sections, bool near_cusps_count = true) {
         long count = 0;
         turning_.clear();
         for (std::size_t i = 0; i < sections.size(); ++i) {
@@ -59,7 +60,8 @@ class SectionFairness {
                 count += n_hooks(sections);
                 turning_.clear();
             } else {
-                count += stands_still(static_cast<long>(i), sections[i]);
+                const bool near_cusp = stands_still(static_cast<long>(i), sections[i]);
+                count += near_cusps_count && near_cusp;
             }
         }
         return count + n_hooks(sections);
@@ -109,7 +111,7 @@ class SectionFairness {
                 place, [&](long j) { return data_[j]; }, std::max<long>(first.first - 1, 0),
                 std::min<long>(last.last + 1, n - 1), 0, n - 1, turning_.data_reach());
         });
-    return static_cast<long>(places.size());
+        return static_cast<long>(places.size());
     }
 
     std::span<const Vec2> data_;

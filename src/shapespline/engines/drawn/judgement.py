@@ -14,6 +14,7 @@ from shapespline.engines.drawn.ends import (
     off_by,
 )
 from shapespline.engines.drawn.joints import turn_at
+from shapespline.engines.drawn.segments import ARC
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
@@ -36,6 +37,9 @@ LEAST_LENGTH = 0.3
 FEW, OFF_FEW = 8, 3.5
 # Before elements that their points contradict are left out so small a part of it is enough.
 HOPELESS = 0.7
+# An arc that meets a neighbour at such an angle, radians, and cannot touch it is the beginning of a
+# free-form curve: nobody draws so blunt a corner (DRA-23).
+BLUNT = np.radians(1.0), np.radians(4.0)
 # A node is no farther from its data than so many steps and deviations: lines that are nearly
 # parallel meet anywhere (DRA-06).
 NODE_STEPS, NODE_DEVIATIONS = 3.0, 20.0
@@ -66,9 +70,13 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         beside = [model.row.points[i : j + 1] for i, j, _ in (model.row.found[s] for s in (k, m))]
         away = float(np.hypot(*(np.concatenate(beside) - node).T).min())
         # Blunted corners lie farther from their points the sharper they are.
-        far = away / reach * float(np.cos(0.5 * turn_at(model, k, m, node))) ** 0.5
+        turn = turn_at(model, k, m, node)
+        far = away / reach * float(np.cos(0.5 * turn)) ** 0.5
+        shorter = min(k, m, key=lambda one: data_length(model, one))
         if far > 1.0:
-            bad.append((far, min(k, m, key=lambda one: data_length(model, one))))
+            bad.append((far, shorter))
+        elif not each_alone and model.kind(shorter) == ARC and BLUNT[0] < turn < BLUNT[1]:
+            bad.append((1.0, shorter))
     for k in model.at:
         between = length_between(model, k, nodes[k - 1], nodes[k])
         along = length_along(model, k)

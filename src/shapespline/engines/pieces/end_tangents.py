@@ -60,14 +60,21 @@ def without_extensions(pieces: tuple[Piece, ...], problem: PiecesProblem) -> tup
     if pieces and begin is not None:
         starts = np.array([piece.control_points[0] for piece in pieces])
         pieces = pieces[int(((starts - points[0]) ** 2).sum(axis=1).argmin()) :]
-        if pieces[0].degree > 1:
-            _turn(pieces[0].control_points[:2], begin)
     if pieces and end is not None:
         ends = np.array([piece.control_points[-1] for piece in pieces])
         pieces = pieces[: int(((ends - points[-1]) ** 2).sum(axis=1).argmin()) + 1]
-        if pieces[-1].degree > 1:
-            _turn(pieces[-1].control_points[:-3:-1], -end)
     return pieces
+
+
+def turned_exactly(
+    pieces: tuple[Piece, ...], tangents: tuple[FloatArray | None, FloatArray | None]
+) -> None:
+    """Turns the ends of pieces, in place, into directions that they have nearly."""
+    begin, end = tangents
+    if begin is not None and pieces[0].degree > 1:
+        _turn(pieces[0].control_points[:2], begin)
+    if end is not None and pieces[-1].degree > 1:
+        _turn(pieces[-1].control_points[:-3:-1], -end)
 
 
 def _turn(ends: FloatArray, direction: FloatArray) -> None:

@@ -14,7 +14,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.engines.pieces.constraints import pinned_exactly
+from shapespline.engines.pieces.end_tangents import turned_exactly
 from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, n_points_of
+from shapespline.engines.pieces.tangents import aligned
+from shapespline.geometry import backwards
 from shapespline.validation import distinct
 
 if TYPE_CHECKING:
@@ -29,6 +32,9 @@ if TYPE_CHECKING:
 
 # Parts of the tolerance that the search aims at, one after another until the promise is kept.
 TOLERANCE_FACTORS = (0.999, 0.97, 0.9, 0.7)
+# Control points move by at most this part of the tolerance to make a tangent exact. That moves a
+# cubic by 4/9 of it at most, less than what the first tolerance factor leaves.
+LARGEST_MOVE = 0.002
 # Pieces are at most cubic; higher degrees are made by elevation.
 PIECE_DEGREE = 3
 
@@ -107,12 +113,18 @@ def _smallest(
 def in_data(
     problem: PiecesProblem, pieces: tuple[Piece, ...], contour: Contour, constraints: Constraints
 ) -> tuple[Piece, ...]:
-    """Pieces of a problem in the unit and direction of its data, to the bit where they are held.
+    """Pieces of a problem where its data are and the way they run, to the bit where they are held.
 
-    ``constraints`` are by the indices of the data.
+    ``constraints`` are by the indices of the data. Tangents that nearly agree are made to agree.
     """
     restored = problem.normalized.restored(pieces)
     ends = [0, len(contour) - 1] if constraints.ends and not contour.closed else []
     held = distinct(np.array(ends, dtype=np.int64), constraints.through)
     pinned_exactly(restored, contour.points[held])
+    largest_move = LARGEST_MOVE * problem.tolerance / problem.normalized.scale
+    # In canonical order: two joints of a parabola share a control point.
+    turned = backwards(restored) if problem.normalized.reversed else restored
+    turned = aligned(turned, largest_move, closed=contour.closed)
+    restored = backwards(turned) if problem.normalized.reversed else turned
+    turned_exactly(restored, constraints.tangents)
     return restored

@@ -10,11 +10,15 @@ from shapespline.analysis import NormalizedContour
 from shapespline.engines.pieces.engine import PIECE_DEGREE
 from shapespline.engines.pieces.problem import PiecesProblem
 from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, n_points_of
+from shapespline.engines.pieces.tangents import aligned
 
 if TYPE_CHECKING:
     from shapespline.monitor import Monitor
     from shapespline.typing import Effort, FloatArray, IntArray
     from shapespline.values import Contour, Piece
+
+# Control points move by at most so many standard deviations of the noise to make a tangent exact.
+LARGEST_MOVE = 0.1
 
 
 def fit_observed(
@@ -61,4 +65,5 @@ def fit_observed(
         monitor,
     )
     runs = [solver.run(tolerance, budget, observed, noise) for budget in BUDGETS[effort]]
-    return min(filter(None, runs), key=n_points_of, default=())
+    pieces = min(filter(None, runs), key=n_points_of, default=())
+    return aligned(pieces, LARGEST_MOVE * noise, closed=outline.closed) if faithful else pieces

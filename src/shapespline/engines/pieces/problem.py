@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class PiecesProblem(NamedTuple):
     """What a search within a tolerance knows about a contour before it begins.
 
-    ``normalized`` holds the points in canonical order and unit, ``tolerance`` is in that unit, too.
+    ``normalized`` holds the points in canonical order and pose, ``tolerance`` is in its unit, too.
     ``corners`` are indices of its points, ``low_turn`` (n,) is 1 where the data turn less than
     `LOW_TURN`, ``constraints`` are in its order and direction. ``dense`` are points as they came,
     in that unit, where the contour holds thinned ones.
@@ -52,8 +52,8 @@ class PiecesProblem(NamedTuple):
         >>> len(outline.corners)
         4
         """
-        normalized = NormalizedContour.of(contour)
-        search_tolerance, n = tolerance * normalized.scale, len(contour)
+        normalized = NormalizedContour.posed(contour, tolerance)
+        search_tolerance, n = normalized.length(tolerance), len(contour)
         low_turn = np.ones(n, dtype=np.int64)
         constraints = _in_order(Constraints() if constraints is None else constraints, normalized)
         if corners is None:
@@ -100,8 +100,8 @@ class PiecesProblem(NamedTuple):
 
 
 def _in_order(constraints: Constraints, normalized: NormalizedContour) -> Constraints:
-    """Constraints in the order and direction of a normalised contour."""
-    begin, end = constraints.tangents
+    """Constraints in the order, direction and pose of a normalised contour."""
+    begin, end = (None if t is None else normalized.direction(t) for t in constraints.tangents)
     if normalized.reversed:
         begin, end = (None if t is None else -t for t in (end, begin))
     through = constraints.through

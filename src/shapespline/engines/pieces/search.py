@@ -10,7 +10,6 @@ import numpy as np
 from shapespline import _kernels
 from shapespline.analysis import LEAST_TURN
 from shapespline.engines.pieces.end_tangents import extended, without_extensions
-from shapespline.engines.pieces.tangents import aligned
 from shapespline.values import Piece, on_grid
 
 if TYPE_CHECKING:
@@ -26,11 +25,6 @@ LEAST_CANDIDATES, MOST_CANDIDATES = 64, 1000
 DEGENERATE_PART = 1e-12
 # The search gives up a corner that the fit turns by less than this part of `LEAST_TURN`.
 RELEASE = 0.7
-# Control points move by at most this part of the tolerance to make a tangent exact. That moves a
-# cubic by 4/9 of it at most, less than what the first tolerance factor leaves.
-LARGEST_MOVE = 0.002
-# The same for a fit to noisy points, in standard deviations of the noise.
-OBSERVED_MOVE = 0.1
 # These codes tell the kernel about the joint at a point; they add up.
 CORNER, PINNED, AFTER_EXTENSION, BEFORE_EXTENSION = 1, 2, 4, 8
 
@@ -124,9 +118,6 @@ class PiecesSolver(NamedTuple):
             noise,
         )
         pieces = _unpacked(degrees, counts, np.array(knots), np.array(coordinates))
-        if self.smooth and pieces:
-            largest_move = LARGEST_MOVE * tolerance if observed is None else OBSERVED_MOVE * noise
-            pieces = aligned(pieces, largest_move, closed=contour.closed)
         return without_extensions(pieces, self.problem)
 
 

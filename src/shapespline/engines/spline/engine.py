@@ -167,7 +167,7 @@ def attempts(
     >>> first.fairness.kept, first.curve.n_control_points <= 8
     (True, True)
     """
-    thinned = normalized.thinned(tolerance * normalized.scale, np.empty(0, dtype=np.int64))
+    thinned = normalized.thinned(normalized.length(tolerance), np.empty(0, dtype=np.int64))
     part, start = 1.0, 0
     data_turning = turning(np.diff(contour.polyline, axis=0), closed=contour.closed) or np.inf
     limit = max(HOPELESS_RATIO * fewer_than, HOPELESS_POINTS)
@@ -200,7 +200,7 @@ def _settings(
     most_at_start: int,
 ) -> _kernels.SplineSettings:
     """What the kernel is asked for, in the unit of the search."""
-    scaled = tolerance * normalized.scale - normalized.error_used
+    scaled = normalized.length(tolerance) - normalized.error_used
     unit = normalized.extent / EXTENT
     low, high = (unit * length for length in LEAST_INTERVAL)
     least = min(max(LEAST_INTERVAL_TOLERANCES * scaled, low), high)

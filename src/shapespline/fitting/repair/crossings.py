@@ -31,7 +31,7 @@ from shapespline.fitting.repair.refit import (
     verified_row,
     windows_around,
 )
-from shapespline.fitting.verify import verified_fit
+from shapespline.fitting.verify import verified_anew, verified_fit
 from shapespline.geometry import crossing_pairs, joined, nearest, self_crossings
 
 if TYPE_CHECKING:
@@ -65,6 +65,8 @@ STEPS = (
     Step(1 / 8, 1, False),
     Step(1 / 32, 1, False),
 )
+# Where all that is not enough, a curve of few points is searched anew within these parts (FIT-29).
+CLOSER, FEW_POINTS = (0.6, 0.3), 60
 # These methods follow the points. A curve that was estimated from noisy points would follow noise.
 FOLLOWING = ("sections", "removal")
 # Points as near to another side as this part of the size lie on it; another is a side that is
@@ -84,6 +86,13 @@ def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
     if not request.is_plain or request.style.form == "spline":
         return told(fit)
     (found,) = uncrossed([fit], request, ask)
+    for part in CLOSER if fit.n_stored_points <= FEW_POINTS else ():
+        if not _crosses(found):
+            break
+        again = verified_anew(fit, ask(request.closer(part * fit.tolerance)))
+        (again,) = uncrossed([again], request, ask)
+        if again.kept and not _crosses(again):
+            return again
     return found
 
 
@@ -195,10 +204,14 @@ def _no_larger_than_data(fit: Fit, part: float = 1.0) -> Fit:
 
 
 def _told(fit: Fit) -> Fit:
-    sentence = fit.status.value
-    if sentence.endswith(CROSSES):
+    if _crosses(fit):
         return fit
-    return replace(fit, status=fit.status.saying(f"{sentence}; {CROSSES}"))
+    return replace(fit, status=fit.status.saying(f"{fit.status.value}; {CROSSES}"))
+
+
+def _crosses(fit: Fit) -> bool:
+    """Whether its status says that it crosses where the data do not."""
+    return fit.status.value.endswith(CROSSES)
 
 
 def _crossing_parts(

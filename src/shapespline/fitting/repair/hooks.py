@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 # with them; parts for everything, of curves of no more stored points, or of no more data (FIT-27).
 STEPS = ((0.75, 0), (0.75, 1), (0.5, 1), (0.25, 1))
 WHOLE, MOST_POINTS = (0.97, 0.9, 0.65, 0.35), 300
+# Windows that take more than so many times the points before compete with everything fitted again,
+# within no less than this part (FIT-29).
+CHEAP, CLOSEST_FOR_FEWER = 1.03, 0.9
 # A curve is looked at by chords within this part of its tolerance; pieces this near to a hook, in
 # tolerances, are fitted again.
 SAMPLING_PART, ABOUT = 0.02, 0.5
@@ -56,12 +59,13 @@ def unhook(
     if request.is_plain and request.weights is None and request.style.smoothness == 1:
         best = _better(best, _windows_again(best, request, ask), request)
     few = min(fit.n_stored_points, len(fit.contour)) <= MOST_POINTS
-    if few and len(_hooks_of(best, request)):
-        for part in WHOLE:
-            closer = replace(request.closer(part * fit.tolerance), weights=request.weights)
-            best = _better(best, verified_anew(fit, whole(closer)), request)
-            if not len(_hooks_of(best, request)):
-                break
+    for part in WHOLE if few else ():
+        if not len(_hooks_of(best, request)) and (
+            best.n_stored_points <= CHEAP * fit.n_stored_points or part < CLOSEST_FOR_FEWER
+        ):
+            break
+        closer = replace(request.closer(part * fit.tolerance), weights=request.weights)
+        best = _better(best, verified_anew(fit, whole(closer)), request)
     if not len(_hooks_of(best, request)):
         return best
     return replace(fit, status=fit.status.saying(f"{fit.status.value}; {TURNS_BACK}"))
@@ -82,8 +86,12 @@ def _hooks_of(fit: Fit, request: Request) -> FloatArray:
 
 
 def _better(fit: Fit, found: Fit, request: Request) -> Fit:
-    """What was found, if it has fewer hooks, keeps the tolerance and crosses no more."""
-    if not found.kept or len(_hooks_of(found, request)) >= len(_hooks_of(fit, request)):
+    """What was found, if it is kept, has fewer hooks, or points, and crosses no more."""
+
+    def rank(one: Fit) -> tuple[int, int]:
+        return len(_hooks_of(one, request)), one.n_stored_points
+
+    if not found.kept or rank(found) >= rank(fit):
         return fit
     found = told(found)
     if found.status.value.endswith(CROSSES) and not fit.status.value.endswith(CROSSES):

@@ -12,6 +12,7 @@ from shapespline.engines.pieces.end_tangents import (
     N_EXTENSION,
     NEARLY,
     extended,
+    turned_exactly,
     without_extensions,
 )
 
@@ -77,12 +78,14 @@ def test_extensions_are_cut_off_and_tangents_made_exact():
         return back, piece(LINE, [first, out])
 
     (cut,) = without_extensions(pieces(0.5 * NEARLY), problem)
+    turned_exactly((cut,), problem.constraints.tangents)
     ends = cut.control_points if at_begin else cut.control_points[::-1]
     leg = sign * (ends[1] - ends[0])
     assert leg @ across == pytest.approx(0.0, abs=1e-12)
     assert leg @ direction == pytest.approx(1.0)
     # What is not near is left, to be verified and said.
     (missed,) = without_extensions(pieces(3 * NEARLY), problem)
+    turned_exactly((missed,), problem.constraints.tangents)
     whole = pieces(3 * NEARLY)
     assert abs(turns(whole, closed=False)[0]) == pytest.approx(3 * NEARLY, rel=1e-9)
     assert (missed.control_points == whole[1 if at_begin else 0].control_points).all()
