@@ -35,7 +35,7 @@ from shapespline.engines.drawn.segments import FREE, LINE, Segments, segmented, 
 from shapespline.values import Arc
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Iterator
 
     from shapespline.engines.drawn.parts import Part
     from shapespline.typing import FloatArray
@@ -52,7 +52,9 @@ MANY_ELEMENTS, POINTS_EACH, MOST_WRONG = 40, 5, 30
 # A picture is taken for drawn so many times less exactly than others where that saves so many
 # parameters a pixel: some renderers draw curves as polygons. Never by more than that part of a
 # pixel in the mean: not one of one bit. A free-form run counts once for so many pixels (DRA-13).
+# Where lines and arcs alone are left, two of them and that part of all are enough (DRA-22).
 ROUGH, ROUGHEST, SAVED, LONG = 3.0, 0.5, 0.03, 25.0
+LEAST_SAVED, SAVED_PART = 6.0, 0.1
 # Data within so many steps of a node tell its direction.
 DIRECTION_STEPS = 4
 
@@ -95,13 +97,27 @@ def as_drawn(
         whole = _whole_circle(_rough(seen, tolerance) or seen)
         if whole is not None:
             return Drawn((whole,), (), is_told=True, n_unknowns=3)
-    seen, row = _as_exact_as_drawn(seen, tolerance)
-    row = supported(row, contour.closed)
+    ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
+    for one, row in _readings(seen, tolerance):
+        found = _of_row(one, row, ends, regularities, tolerance)
+        if found is not None:
+            return found
+    return None
+
+
+def _of_row(
+    seen: Observed,
+    row: Segments,
+    ends: FloatArray | None,
+    regularities: Collection[str],
+    tolerance: float,
+) -> Drawn | None:
+    """Lines, arcs and free-form runs of segments; None if these are none that were drawn."""
+    row = supported(row, seen.closed)
     if len(row.found) > max(MANY_ELEMENTS, len(seen.points) / POINTS_EACH):
         return None
-    if contour.closed and len(row.found) == 1:  # an arc that is no circle
+    if seen.closed and len(row.found) == 1:  # an arc that is no circle
         return None
-    ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
     row = at_corners(Model.of(seen, row, None, ends))
     model, n_wrong = Model.of(seen, row, None, ends), 0
     while (fewer := without_few(model)) is not None and n_wrong < MOST_WRONG:
@@ -109,7 +125,7 @@ def as_drawn(
     row = model.row
     while n_wrong < min(len(row.found), MOST_WRONG):
         model = Model.of(seen, row, model, ends)
-        if not is_enough(model):
+        if not is_enough(row):
             return None
         bad = misfitting(model, tolerance, each_alone=True)  # which is soon done
         if not bad:
@@ -123,7 +139,7 @@ def as_drawn(
                 model = Model.of(seen, row, model, ends)
                 found = Search(model, regularities).run()
             return _drawn(model, found, tolerance, told)
-        row, n_wrong = supported(_without(row, bad), contour.closed), n_wrong + len(bad)
+        row, n_wrong = supported(_without(row, bad), seen.closed), n_wrong + len(bad)
     return None
 
 
@@ -133,17 +149,34 @@ def _rough(seen: Observed, tolerance: float) -> Observed | None:
     return seen.rougher(ROUGH) if ROUND * ROUGH * seen.largest_deviation <= room else None
 
 
-def _as_exact_as_drawn(seen: Observed, tolerance: float) -> tuple[Observed, Segments]:
-    """The outline as its picture shows it, or less exact where that is much shorter to tell."""
+def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segments]]:
+    """The outline as its picture shows it, or less exact where that is much shorter to tell.
+
+    What tells no drawing may do so if it is taken for less exact: its elements are estimated anew
+    with larger errors, then looked for with these, then with errors that are slow, too.
+    """
     row, rough = segmented(seen), _rough(seen, tolerance)
     if rough is None:
-        return seen, row
-    long, least = LONG * seen.pixel, SAVED * row.stations[-1] / seen.pixel
-    told = row.n_parameters(long)
-    if told <= least:
-        return seen, row
-    again = segmented(rough)
-    return (rough, again) if told - again.n_parameters(long) > least else (seen, row)
+        yield seen, row
+        return
+    again = segmented(rough) if row.n_parameters(LONG * seen.pixel) >= LEAST_SAVED else row
+    if not _is_shorter(again, row, seen.pixel):
+        yield seen, row
+        if not is_enough(row):
+            return
+        yield rough, row
+    yield rough, again
+    slow = rough.slow()
+    yield slow, segmented(slow)
+
+
+def _is_shorter(again: Segments, row: Segments, pixel: float) -> bool:
+    """Whether segments are so much shorter to tell than others that errors are behind these."""
+    told = row.n_parameters(LONG * pixel)
+    saved = told - again.n_parameters(LONG * pixel)
+    if all(segment.kind != FREE for segment in again.found):
+        return saved >= max(LEAST_SAVED, SAVED_PART * told)
+    return saved > SAVED * row.stations[-1] / pixel
 
 
 def _whole_circle(seen: Observed) -> DrawnArc | None:

@@ -14,7 +14,7 @@ from shapespline.engines.drawn.ends import (
     off_by,
 )
 from shapespline.engines.drawn.joints import turn_at
-from shapespline.engines.drawn.segments import ARC
+from shapespline.engines.drawn.segments import ARC, FREE
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
@@ -38,7 +38,7 @@ FEW, OFF_FEW = 8, 3.5
 # Before elements that their points contradict are left out so small a part of it is enough.
 HOPELESS = 0.7
 # An arc that meets a neighbour at such an angle, radians, and cannot touch it is the beginning of a
-# free-form curve: nobody draws so blunt a corner (DRA-23).
+# free-form curve: nobody draws so blunt a corner (DRA-24).
 BLUNT = np.radians(1.0), np.radians(4.0)
 # A node is no farther from its data than so many steps and deviations: lines that are nearly
 # parallel meet anywhere (DRA-06).
@@ -118,10 +118,11 @@ def without_few(model: Model) -> Segments | None:
     return None
 
 
-def is_enough(model: Model) -> bool:
+def is_enough(row: Segments) -> bool:
     """Whether lines and arcs make up enough of an outline to be what was drawn."""
-    length = sum(data_length(model, k) for k in model.at)
-    return bool(model.at) and length >= LEAST_SHARE * float(model.row.stations[-1])
+    s = row.stations
+    lengths = [float(s[j] - s[i]) for i, j, kind in row.found if kind != FREE]
+    return bool(lengths) and sum(lengths) >= LEAST_SHARE * float(s[-1])
 
 
 def is_short(model: Model) -> bool:

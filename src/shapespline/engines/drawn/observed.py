@@ -22,6 +22,8 @@ BLUNTED, SYSTEMATIC = 1.0, 0.75
 # A picture's points are better than its accuracy where they scatter less: slow errors are so many
 # times what shows between neighbours, and no picture is better than this part (DRA-02).
 SLOW, BEST = 3.0, 0.3
+# Errors of a renderer that draws curves as chords go on for so many pixels (DRA-22).
+APART = 4.0
 # Points less accurate than this part of their step are those of a picture of one bit: along its
 # stairs they scatter by nothing, and are off by half a pixel (DRA-14).
 ONE_BIT = 0.15
@@ -48,6 +50,8 @@ class Observed:
         What averaging does not take away: systematic errors of a picture.
     pixel : float
         0 for measured points.
+    apart : float
+        Pixels from one independent sample to the next.
     """
 
     points: FloatArray
@@ -56,6 +60,7 @@ class Observed:
     largest_deviation: float
     floor: float
     pixel: float
+    apart: float = 1.0
 
     @classmethod
     def of(cls, contour: Contour, accuracy: float | None) -> Observed:
@@ -92,6 +97,10 @@ class Observed:
             largest_deviation=deviation,
             floor=SYSTEMATIC * deviation,
         )
+
+    def slow(self) -> Observed:
+        """The same with errors that go on for longer."""
+        return replace(self, apart=APART)
 
     @property
     def one_bit(self) -> bool:

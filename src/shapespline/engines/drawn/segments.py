@@ -70,15 +70,19 @@ class Segments(NamedTuple):
     found: tuple[Segment, ...]
 
     def n_parameters(self, long: float) -> float:
-        """Numbers that tell the segments, joints aside; free-form ones take more the longer.
+        """Numbers that tell the segments, joints aside; free-form runs take more the longer.
 
         A line counts as an arc does: what is taken for less exact must not save by straightness.
         """
-        found = 0.0
-        for i, j, kind in self.found:
-            length = float(self.stations[j] - self.stations[i])
-            free = FREE_PARAMETERS * max(1.0, length / long)
-            found += free if kind == FREE else ARC_PARAMETERS
+        found, length = 0.0, 0.0
+        for k, (i, j, kind) in enumerate(self.found):
+            if kind != FREE:
+                found += ARC_PARAMETERS
+                continue
+            length += float(self.stations[j] - self.stations[i])
+            if k + 1 == len(self.found) or self.found[k + 1].kind != FREE:
+                found += FREE_PARAMETERS * max(1.0, length / long)
+                length = 0.0
         return found
 
     def turned(self, k: int) -> Segments:
@@ -151,8 +155,8 @@ def _solved(
     order = (np.arange(n + seen.closed) + start) % n
     row = _row(seen.points[order], np.ones(len(order)), start, ())
     weights = row.weights
-    if seen.pixel:  # one independent sample to a pixel
-        weights = np.minimum(np.gradient(row.stations) / seen.pixel, 1.0)
+    if seen.pixel:  # one independent sample to a pixel, or to more of them
+        weights = np.minimum(np.gradient(row.stations) / seen.pixel, 1.0) / seen.apart
     low, high = row.points.min(axis=0), row.points.max(axis=0)
     size = 0.5 * float((high - low).max())
     shortest = SHORTEST_STAIRS if seen.one_bit else SHORTEST_BLUNTED

@@ -122,6 +122,16 @@ def test_a_picture_that_was_drawn_with_polygons_for_arcs_has_arcs():
     assert tight is None or len(tight.parts) > 20
 
 
+@pytest.mark.parametrize(("chords", "up"), [(14, 0.0), (16, 0.1), (18, 0.06)])
+def test_chords_that_end_on_quarters_of_rows_are_arcs_between_level_edges(chords, up):
+    """So Chromium draws: what it rounds misses by more than independent errors would."""
+    ends = [arc((x, up), 36, begin, 180, chords) for x, begin in ((70, -90), (-70, 90))]
+    corners = np.concatenate([ends[0], [(70, 36 + up)], ends[1], [(-70, -36 + up)]])
+    corners[:, 1] = np.round(4 * corners[:, 1]) / 4
+    found = as_drawn(Contour(stepped(corners), closed=True), 0.02)
+    assert sorted(kinds(found)) == list("AALL")
+
+
 def test_a_picture_of_a_polygon_whose_corners_show_stays_one():
     corners = arc((0, 0), 60, 0, 360, 12)
     found = as_drawn(Contour(stepped(corners), closed=True), 0.02)
