@@ -11,14 +11,11 @@ from __future__ import annotations
 from itertools import product
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from shapespline.engines.pieces.constraints import pinned_exactly
 from shapespline.engines.pieces.end_tangents import turned_exactly
 from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, n_points_of
 from shapespline.engines.pieces.tangents import aligned
 from shapespline.geometry import backwards
-from shapespline.validation import distinct
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -73,6 +70,7 @@ def search_pieces(
 
     Examples
     --------
+    >>> import numpy as np
     >>> from shapespline import Contour
     >>> from shapespline.engines.pieces import PiecesProblem
     >>> from shapespline.monitor import Monitor
@@ -118,9 +116,11 @@ def in_data(
     ``constraints`` are by the indices of the data. Tangents that nearly agree are made to agree.
     """
     restored = problem.normalized.restored(pieces)
-    ends = [0, len(contour) - 1] if constraints.ends and not contour.closed else []
-    held = distinct(np.array(ends, dtype=np.int64), constraints.through)
-    pinned_exactly(restored, contour.points[held])
+    pinned_exactly(restored, contour.points[constraints.through])
+    if constraints.ends and not contour.closed:
+        # Each to its own: where they meet both are the nearest.
+        restored[0].control_points[0] = contour.points[0]
+        restored[-1].control_points[-1] = contour.points[-1]
     largest_move = LARGEST_MOVE * problem.tolerance / problem.normalized.scale
     # In canonical order: two joints of a parabola share a control point.
     turned = backwards(restored) if problem.normalized.reversed else restored

@@ -17,6 +17,7 @@ import numpy as np
 from shapespline.engines.pieces import through_all
 from shapespline.fitting.repair.assignment import (
     AssignedPiece,
+    DataRun,
     PieceAssignment,
     curve_of,
     line_of,
@@ -37,9 +38,8 @@ from shapespline.geometry import crossing_pairs, joined, nearest, self_crossings
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from shapespline.fitting.repair.assignment import DataRun
     from shapespline.fitting.request import Request
-    from shapespline.typing import FloatArray
+    from shapespline.typing import BoolArray, FloatArray
     from shapespline.values import Contour, Fit
 
 
@@ -86,9 +86,9 @@ def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
     if not request.is_plain or request.style.form == "spline":
         return told(fit)
     (found,) = uncrossed([fit], request, ask)
-    for part in CLOSER if fit.n_stored_points <= FEW_POINTS else ():
-        if not _crosses(found):
-            break
+    if not _crosses(found) or fit.n_stored_points > FEW_POINTS or _lies_on_itself(fit):
+        return found
+    for part in CLOSER:
         again = verified_anew(fit, ask(request.closer(part * fit.tolerance)))
         (again,) = uncrossed([again], request, ask)
         if again.kept and not _crosses(again):
@@ -253,6 +253,18 @@ def _new_crossings(
     }
 
 
+def _lies_on_itself(fit: Fit) -> bool:
+    """Whether some of the data lie on other sides of them: no search may part those."""
+    contour, tolerance = fit.contour, fit.tolerance
+    data = DataRun(contour.points, contour.arc_length[: len(contour)])
+    across = Sides([contour]).across(data, 0, reach=tolerance, least=NEXT * tolerance)
+    return bool(_touching(across, contour.points).any())
+
+
+def _touching(across: FloatArray, points: FloatArray) -> BoolArray:
+    return np.hypot(*across.T) <= TOUCHING * np.ptp(points, axis=0).max()
+
+
 def _lies_on_data(row: PieceAssignment, at: int, sides: Sides) -> bool:
     """Whether most points of a part lie on other sides of the data: no clearance keeps them apart.
 
@@ -261,7 +273,7 @@ def _lies_on_data(row: PieceAssignment, at: int, sides: Sides) -> bool:
     part, tolerance = row.parts[at], row.fit.tolerance
     data = row.data.part(max(part.begin - 1, 0), part.end + 1)
     across = sides.across(data, row.owner, reach=tolerance, least=NEXT * tolerance)
-    touching = np.hypot(*across.T) <= TOUCHING * np.ptp(row.data.points, axis=0).max()
+    touching = _touching(across, row.data.points)
     return bool(2 * touching.sum() > len(touching))
 
 
