@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.fitting.repair.assignment import PieceAssignment, distances_sq
-from shapespline.fitting.repair.crossings import CROSSES, FOLLOWING, told
+from shapespline.fitting.repair.crossings import CROSSES, FOLLOWING, NEARLY_ALL, told
 from shapespline.fitting.repair.reading import Reading
 from shapespline.fitting.repair.refit import (
     Refit,
@@ -56,9 +56,11 @@ def unhook(
     if not fit.kept or not len(_hooks_of(fit, request)):
         return fit
     best = fit
-    if request.is_plain and request.weights is None and request.style.smoothness == 1:
-        best = _better(best, _windows_again(best, request, ask), request)
     few = min(fit.n_stored_points, len(fit.contour)) <= MOST_POINTS
+    is_rough = not few and fit.n_stored_points > NEARLY_ALL * len(fit.contour)
+    is_plain = request.is_plain and request.weights is None and request.style.smoothness == 1
+    if is_plain and not is_rough:
+        best = _better(best, _windows_again(best, request, ask), request)
     for part in WHOLE if few else ():
         if not len(_hooks_of(best, request)) and (
             best.n_stored_points <= CHEAP * fit.n_stored_points or part < CLOSEST_FOR_FEWER
