@@ -38,7 +38,7 @@ FEW, OFF_FEW = 8, 3.5
 # Before elements that their points contradict are left out so small a part of it is enough.
 HOPELESS = 0.7
 # An arc that meets a neighbour at such an angle, radians, and cannot touch it is the beginning of a
-# free-form curve: nobody draws so blunt a corner (DRA-24).
+# free-form curve: nobody draws so blunt a corner (DRA-26).
 BLUNT = np.radians(1.0), np.radians(4.0)
 # A node is no farther from its data than so many steps and deviations: lines that are nearly
 # parallel meet anywhere (DRA-06).
