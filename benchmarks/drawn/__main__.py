@@ -10,8 +10,14 @@ from __future__ import annotations
 
 import argparse
 
+from benchmarks.drawn.limits import limits_table
 from benchmarks.drawn.page import write_page
 from benchmarks.drawn.tables import pictures_tables, recovered_table, sampled_table
+
+LIMITS = """Errors over those of least squares that are told which points are whose, what is a line
+or an arc and which joints are tangent: of lines, of arcs, of corners, of the fits that are right.
+
+"""
 
 
 def main() -> None:
@@ -19,7 +25,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--page", action="store_true", help="write docs/drawn.md and its pictures")
     asked = parser.parse_args()
-    pictures, points = pictures_tables(), sampled_table() + "\n" + recovered_table()
+    pictures, points = pictures_tables(), f"{sampled_table()}\n{recovered_table()}\n{LIMITS}"
+    points += limits_table()
     print("\n".join([*pictures.texts, points, *pictures.left_out]))
     if asked.page:
         write_page(pictures, points)

@@ -9,6 +9,7 @@ import numpy as np
 
 import shapespline as ss
 from benchmarks.drawn.catalogue import drawings, names_of
+from benchmarks.drawn.found import Found
 from benchmarks.drawn.measure import Figures
 from benchmarks.drawn.renderers import RENDERERS, MissingError
 from benchmarks.drawn.tracers import CHARACTERS, PEERS, ours
@@ -165,11 +166,12 @@ def recovered_table(draws: int = 10) -> str:
     """How often the fit has the drawing's lines and arcs and nothing else."""
     rows = {name: dict.fromkeys(SAMPLINGS, 0) for name in PLATES}
     for name, right in rows.items():
+        own = sorted(type(one).__name__.lower() for one in rendered(name, SIZE)[0][0])
         for seed in range(draws):
-            for noise, points, _, count in noisy_points(name, np.random.default_rng(seed)):
+            for noise, points, _, _ in noisy_points(name, np.random.default_rng(seed)):
                 pieces = ss.fit_curve(points, closed=True).pieces
-                same = len(pieces) == count and all(p.kind in ("line", "arc") for p in pieces)
-                right[noise, len(points)] += same
+                kinds = sorted(piece.kind for piece in pieces)
+                right[noise, len(points)] += kinds == own
     lines = [
         f"Right of {draws} | " + " | ".join(f"{noise} %, {n}" for noise, n in SAMPLINGS),
         "|".join(["---"] * (1 + len(SAMPLINGS))),
@@ -190,7 +192,7 @@ def sampled_table() -> str:
             said = []
             for character in CHARACTERS:
                 fit = ss.fit_curve(points, closed=True, character=character)
-                curve = fit.spline(np.linspace(0, 1, 20_001))
+                curve = Found.of_fits([fit]).curve
                 far = max(
                     cKDTree(dense).query(curve)[0].max(), cKDTree(curve).query(dense)[0].max()
                 )

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,7 +17,8 @@ from shapespline.engines.drawn.ends import (
     nodes_of,
     sweep_of,
 )
-from shapespline.engines.drawn.joints import direction_at
+from shapespline.engines.drawn.fillets import with_fillets
+from shapespline.engines.drawn.joints import direction_at, turn_at
 from shapespline.engines.drawn.judgement import (
     HOPELESS,
     LARGEST,
@@ -31,15 +33,23 @@ from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES, Search
-from shapespline.engines.drawn.segments import FREE, LINE, Segments, segmented, supported
-from shapespline.values import Arc
+from shapespline.engines.drawn.segments import (
+    FREE,
+    LINE,
+    PRICE,
+    SMOOTH,
+    Segments,
+    segmented,
+    supported,
+)
+from shapespline.values import Arc, Regularity
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
     from shapespline.engines.drawn.parts import Part
     from shapespline.typing import FloatArray
-    from shapespline.values import Contour, Regularity
+    from shapespline.values import Contour
 
 # Fewer points tell no structure.
 FEWEST_POINTS = 12
@@ -55,6 +65,8 @@ MANY_ELEMENTS, POINTS_EACH, MOST_WRONG = 40, 5, 30
 # Where lines and arcs alone are left, two of them and that part of all are enough (DRA-22).
 ROUGH, ROUGHEST, SAVED, LONG = 3.0, 0.5, 0.03, 25.0
 LEAST_SAVED, SAVED_PART = 6.0, 0.1
+# Measured points are shared anew so often, and an element keeps so many of them (DRA-25).
+SHARINGS, LEAST_SHARED = 3, 3
 # Data within so many steps of a node tell its direction.
 DIRECTION_STEPS = 4
 
@@ -119,10 +131,44 @@ def _of_row(
     if seen.closed and len(row.found) == 1:  # an arc that is no circle
         return None
     row = at_corners(Model.of(seen, row, None, ends))
-    model, n_wrong = Model.of(seen, row, None, ends), 0
-    while (fewer := without_few(model)) is not None and n_wrong < MOST_WRONG:
-        model, n_wrong = Model.of(seen, fewer, model, ends), n_wrong + 1
-    row = model.row
+    model, n_few = Model.of(seen, row, None, ends), 0
+    while (fewer := without_few(model)) is not None and n_few < MOST_WRONG:
+        model, n_few = Model.of(seen, fewer, model, ends), n_few + 1
+    best = _estimated(model, model.row, tolerance)
+    filleted = None if seen.pixel else with_fillets(model)
+    other = None if filleted is None else _estimated(model, filleted, tolerance)
+    if other is not None:
+        whole = other.model.row is filleted
+        best = other if best is None or (whole and other.cost < best.cost) else best
+    if best is not None and (row := _shared_anew(best.model).row) is not best.model.row:
+        other = _estimated(model, row, tolerance)
+        if other is not None and other.model.row is row and other.cost < best.cost:
+            best = other
+    if best is None or not (best.told or is_short(best.model)):
+        return None
+    model, found, told = best.model, best.found, best.told
+    if set(regularities) != set(NAMES):
+        model = Model.of(seen, model.row, model, ends)
+        found = Search(model, regularities).run()
+    return _drawn(_shared_anew(model), found, tolerance, told)
+
+
+class Estimated(NamedTuple):
+    """Elements with the regularities that they keep, and whether these tell of a drawing."""
+
+    model: Model
+    found: list[Regularity]
+    told: bool
+
+    @property
+    def cost(self) -> float:
+        """Misfit and the price of what regularities leave free."""
+        return 0.5 * self.model.chi_sq + PRICE * self.model.n_free
+
+
+def _estimated(model: Model, row: Segments, tolerance: float) -> Estimated | None:
+    """The elements of segments under their regularities, those that fit badly left out."""
+    seen, ends, n_wrong = model.seen, model.ends, 0
     while n_wrong < min(len(row.found), MOST_WRONG):
         model = Model.of(seen, row, model, ends)
         if not is_enough(row):
@@ -132,15 +178,52 @@ def _of_row(
             found = Search(model, NAMES).run()
             bad = misfitting(model, tolerance)
             told = repeated(model, found) >= LEAST_SAID * (1.0 if not bad else HOPELESS)
+            if not bad:
+                return Estimated(model, found, told)
             if not told and not is_short(model):
                 return None
-        if not bad:
-            if set(regularities) != set(NAMES):
-                model = Model.of(seen, row, model, ends)
-                found = Search(model, regularities).run()
-            return _drawn(model, found, tolerance, told)
         row, n_wrong = supported(_without(row, bad), seen.closed), n_wrong + len(bad)
     return None
+
+
+def _shared_anew(model: Model) -> Model:
+    """The estimate of measured points that belong to the elements between whose nodes they lie.
+
+    Segments are found without joints, so some points beside a tangent one are on its wrong side.
+    """
+    for _ in range(0 if model.seen.pixel else SHARINGS):
+        row = _between_nodes(model)
+        if row is model.row or min(j - i for i, j, _ in row.found) < LEAST_SHARED:
+            break
+        again = replace(model, row=row, x=model.x.copy())
+        again.solve()
+        if not again.chi_sq < model.chi_sq:
+            break
+        model = again
+    return model
+
+
+def _between_nodes(model: Model) -> Segments:
+    """The row whose segments end in the points nearest to the nodes of tangent elements."""
+    row, n, closed = model.row, len(model.row.found), model.seen.closed
+    last = len(row.points) - 1
+    begins = [segment.begin for segment in row.found]
+    for k, node in nodes_of(model).items():
+        m = (k + 1) % n
+        if k not in model.at or m not in model.at or k == m or (m == 0 and not closed):
+            continue
+        if turn_at(model, k, m, node) > SMOOTH:
+            continue
+        at, before, after = row.found[k].end, row.found[k], row.found[m]
+        near = np.arange(at - (at - before.begin) // 2, at + (after.end - after.begin) // 2 + 1)
+        points = row.points[near % last if closed else near]
+        begins[m] = int(near[np.argmin(np.hypot(*(points - node).T))])
+    if begins == [segment.begin for segment in row.found]:
+        return row
+    if closed:
+        return row.cut_at([begin % last for begin in begins])
+    parts = zip(begins, [*begins[1:], last], row.found, strict=True)
+    return row._replace(found=tuple(s._replace(begin=i, end=j) for i, j, s in parts))
 
 
 def _rough(seen: Observed, tolerance: float) -> Observed | None:

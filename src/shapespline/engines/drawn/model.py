@@ -183,6 +183,11 @@ class Model:
         """Misfit of each element."""
         return self.normal(self.x)[2]
 
+    @property
+    def chi_sq(self) -> float:
+        """Of all elements."""
+        return sum(misfit.chi_sq for misfit in self.misfits().values())
+
     def solve(self, rounds: int = ROUNDS) -> None:
         """The best estimate under the constraints."""
         if not len(self.x):

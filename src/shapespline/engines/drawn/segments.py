@@ -181,17 +181,22 @@ def _solved(
 
 
 def _merged(row: Segments, seen: Observed) -> Segments:
-    """Arcs too flat to tell as lines; of a picture lines that one line explains as one."""
+    """Arcs too flat to tell as lines; lines that one line explains as one.
+
+    Of measured points only those beside such an arc, as independent errors break no line.
+    """
     sigma, points = seen.deviation, row.points
+    flat = [s.kind == ARC and _is_flat(points, s, seen) for s in row.found]
     found = [
-        s._replace(kind=LINE) if s.kind == ARC and _is_flat(points, s, seen) else s
-        for s in row.found
+        s._replace(kind=LINE) if is_flat else s for s, is_flat in zip(row.found, flat, strict=True)
     ]
     k = 0
-    while seen.pixel and k + 1 < len(found):
+    while k + 1 < len(found):
         a, b = found[k], found[k + 1]
-        if a.kind == b.kind == LINE and _on_one_line(points[a.begin + 2 : b.end - 1], sigma):
+        broken = a.kind == b.kind == LINE and (seen.pixel or flat[k] or flat[k + 1])
+        if broken and _on_one_line(points[a.begin + 2 : b.end - 1], sigma):
             found[k : k + 2] = [Segment(a.begin, b.end, LINE)]
+            flat[k : k + 2] = [True]
             k = max(k - 1, 0)
         else:
             k += 1
@@ -240,10 +245,10 @@ def _is_flat(points: FloatArray, arc: Segment, seen: Observed) -> bool:
     i, j, _ = arc
     if j - i > 12:
         i, j = i + 3, j - 3
-    chord = points[j] - points[i]
-    size = float(np.hypot(*chord))
-    middle = points[(i + j) // 2] - points[i]
-    sagitta = abs(float(middle[0] * chord[1] - middle[1] * chord[0])) / max(size, 1e-300)
+    size = float(np.hypot(*(points[j] - points[i])))
+    # Of the circle through all points, as noise moves three of them by as much.
+    radius = _kernels.circle_through(points[i : j + 1], np.ones(j + 1 - i))[2]
+    sagitta = size**2 / (4.0 * (radius + max(radius**2 - 0.25 * size**2, 0.0) ** 0.5))
     short = min(1.0, size / (FLAT_CHORD * FLAT)) if seen.pixel else 1.0
     return sagitta < FLAT * seen.deviation * short
 
