@@ -18,6 +18,7 @@ from shapespline.tracing.sides import (
     DISTURBED,
     NONE,
     SAME_CORNER,
+    SHORT_SIDE,
     SIDE,
     SQUARE,
     Ways,
@@ -42,6 +43,8 @@ CUT_OFF = (4.0, 3.9, 2.95, 2.03, 1.49, 1.22, 0.93, 0.715, 0.55, 0.42, 0.315, 0.2
 # much, than a rounding of this radius takes or a tip of this length has, and this many square
 # pixels.
 AROUND, ROUNDING, TIP, UNCERTAIN = 3, 0.5, 1.5, 0.03
+# From which sides corners are looked for: how far they are disturbed, and how far they go.
+LOOKS = (*((disturbed, SIDE) for disturbed in DISTURBED), (DISTURBED[0], SHORT_SIDE))
 # Shorter outlines have no sides that show undisturbed.
 SHORTEST_OUTLINE = 16.0
 
@@ -101,8 +104,8 @@ def put_back(
     ways = Ways([lines[k] for k in chosen], [closed[k] for k in chosen])
     turns = turns_of(ways)
     corners = NONE
-    for disturbed in DISTURBED:
-        found = meetings(ways, turns, disturbed)
+    for disturbed, side in LOOKS:
+        found = meetings(ways, turns, disturbed, side)
         found = found._replace(own=used[found.own])
         far = _distances(found.points, found.own, level_lines, closed)
         cut_off = np.interp(np.degrees(np.pi - found.turns), ANGLES, CUT_OFF)

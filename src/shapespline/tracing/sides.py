@@ -20,6 +20,9 @@ LEAST_TURN = np.radians(22.0)
 CHORD = (1.0, 3.4)
 # Candidates nearer than this are one; sides are looked at as far as this, and over no less.
 SAME_CORNER, SIDE, SHORTEST_SIDE = 1.6, 6.0, 0.9
+# Where a side of that length bends too much a shorter one is tried, if no other corner is near
+# (TRC-19).
+SHORT_SIDE = 3.5
 # A side is disturbed this far from the corner: half a pixel for its column, or more where columns
 # next to it see the corner, and what the other side's square reaches over. Where that leaves no
 # side, less is tried: the level line turns before an acute corner, and all is counted from there.
@@ -127,8 +130,11 @@ class Ways:
         return np.asarray(a + share[..., None] * (b - a))
 
 
-def meetings(ways: Ways, turns: Turns, disturbed: float) -> Corners:
-    """Where the sides of ways meet, if they are disturbed as far as that."""
+def meetings(ways: Ways, turns: Turns, disturbed: float, side: float = SIDE) -> Corners:
+    """Where the sides of ways meet, if they are disturbed as far as that.
+
+    Sides that are looked at less far than usual must show undisturbed all of it.
+    """
     own, at, turn = turns
     if len(own) == 0:
         return NONE
@@ -137,7 +143,7 @@ def meetings(ways: Ways, turns: Turns, disturbed: float) -> Corners:
         behind, ahead = _room(ways, own, at, near)
         sides, wide = [], np.full(len(at), np.inf)
         for room, sign in ((behind, -1.0), (ahead, 1.0)):
-            far = np.minimum(SIDE, room)
+            far = np.minimum(side, room)
             sides.append(_side(ways, own, at, near, far, sign))
             wide = np.minimum(wide, far - near)
         runs, turn, off, apart = _meeting(sides[0][0], sides[1][0], near)
@@ -152,6 +158,8 @@ def meetings(ways: Ways, turns: Turns, disturbed: float) -> Corners:
         own, at, near, wide, runs, turn, apart, fit = columns
     # The sides of a stroke's round end run side by side and meet nowhere.
     good = fit & (wide >= SHORTEST_SIDE) & (turn > LEAST_TURN) & (apart <= MEET)
+    if side < SIDE:
+        good &= wide >= side - near
     # Edges along the rows and columns meet on whole numbers, but for a rounding.
     runs = np.round(runs, DIGITS)
     return Corners(own, runs[:, BETWEEN], turn, at - near, at + near, runs).chosen(good)
