@@ -1,6 +1,8 @@
-"""Fits of one version of the package, whichever is installed: sizes and seconds of the processor.
+"""Fits of one version of the package: sizes and seconds of the processor.
 
-    python -P benchmarks/version_child.py TASKS FOUND
+    python -P benchmarks/version_child.py TASKS FOUND [PACKAGES]
+
+The version is the installed one, or the one in a folder of packages.
 
 What `benchmarks.versions` runs; it imports nothing of the project but the package itself.
 """
@@ -12,8 +14,15 @@ import time
 import warnings
 from pathlib import Path
 
+if len(sys.argv) > 3:
+    # An editable installation finds its own package before any path does.
+    sys.meta_path = [one for one in sys.meta_path if "Redirecting" not in type(one).__name__]
+    sys.path.insert(0, sys.argv[3])
+
 import shapespline as ss
 
+if len(sys.argv) > 3 and not Path(ss.__file__).is_relative_to(sys.argv[3]):
+    sys.exit(f"the package found is {ss.__file__}, none of {sys.argv[3]}")
 REPEATS = 3
 
 
@@ -39,7 +48,7 @@ def seconds_and_points(task):
 def main():
     """All tasks of a file, the answers into another."""
     warnings.simplefilter("ignore")
-    tasks, answers = map(Path, sys.argv[1:])
+    tasks, answers = map(Path, sys.argv[1:3])
     found = [seconds_and_points(task) for task in pickle.loads(tasks.read_bytes())]
     answers.write_text(json.dumps(found), encoding="utf-8")
 
