@@ -84,9 +84,18 @@ def test_a_square_is_no_circle():
     # A circle lies within 0.42 of it.
     fit = checked(ss.fit_curve(square, tolerance=0.5, form="arcs"), 0.5)
     assert (kinds(fit), len(fit.corners)) == ({"line"}, 4)
-    few = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    fit = checked(ss.fit_curve(few, closed=True, tolerance=0.3, form="arcs"), 0.3)
-    assert not any(piece.arc is not None and piece.arc.is_circle for piece in fit.pieces)
+    few = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], dtype=float)
+    for angle in (0.0, 0.3, 0.7, 1.1):
+        turned = few @ [[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]
+        for tolerance in (0.05, 0.1, 0.25):
+            fit = checked(
+                ss.fit_curve(turned, closed=True, tolerance=tolerance, form="arcs"), tolerance
+            )
+            assert (kinds(fit), len(fit.pieces)) == ({"line"}, 4)
+        # Within 0.3 there are curves of fewer points. A circle would be within 0.11, but four
+        # points tell of none.
+        fit = checked(ss.fit_curve(turned, closed=True, tolerance=0.3, form="arcs"), 0.3)
+        assert not any(piece.arc is not None and piece.arc.is_circle for piece in fit.pieces)
 
 
 def test_a_shared_border_is_the_same_arcs_and_its_bound_counts_their_twins():

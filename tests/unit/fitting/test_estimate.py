@@ -177,8 +177,9 @@ def test_lines_and_arcs_are_no_better_for_a_noisy_ellipse_than_a_curve():
     ellipse = Contour(np.column_stack([50 * np.cos(t), 10 * np.sin(t)]), closed=True)
     even = ellipse.resampled(5000)
     fits = [fit_curve(shaken(even, 2.0, seed)) for seed in range(8)]
-    # One in eight is taken for a stadium (32 seeds): with that, three of eight in one run of 14.
-    assert sum(any(piece.arc is not None for piece in fit.pieces) for fit in fits) <= 3
+    # One in eight is taken for a stadium, which tells these points as well (32 seeds, FIT-28): with
+    # such odds, more than two of eight are in one run of 14.
+    assert sum(any(piece.arc is not None for piece in fit.pieces) for fit in fits) <= 2
 
 
 def test_a_noisy_square_with_round_corners_is_no_circle():

@@ -60,7 +60,7 @@ std::pair<std::int64_t, std::int64_t> greatest_rotation(std::int64_t n, Value va
     return {std::min(i, j), k == n ? std::abs(i - j) : n};
 }
 
-// Below 0 if the values read one way come after those read the other way, 0 if they are the same.
+// Below 0 if the values read one way come before those read the other way, 0 if they are the same.
 template <class Less>
 int compared(Reading a, Reading b, std::int64_t n, Less less) {
     for (std::int64_t k = 0; k < n; ++k) {
