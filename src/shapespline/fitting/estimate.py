@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis import (
+    LEAST_TURN,
     NOISE_BAND,
     NormalizedContour,
     means_of,
@@ -103,12 +104,15 @@ class Evidence(NamedTuple):
         found, misfit = two_sided_distance(curve, contour), means.misfit(curve)
         stored = sum(piece.n_stored for piece in pieces)
         stored += 0 if contour.closed else 1
-        sharp = [
-            abs(turn_between(before, after)) > CORNER_TURN
-            for before, after in pairwise([*pieces, *(pieces[:1] if contour.closed else ())])
-        ]
+        sharp = [abs(turn) > CORNER_TURN for turn in _turns(pieces, closed=contour.closed)]
         price = PENALTY * stored + np.log(len(contour)) * max(0, sum(sharp) - n_proven)
         return cls(misfit + price, found.hausdorff_distance, stored, n_proven)
+
+
+def _turns(pieces: tuple[Piece, ...], *, closed: bool) -> list[float]:
+    """Angles at the joints, radians."""
+    around = [*pieces, *(pieces[:1] if closed else ())]
+    return [turn_between(before, after) for before, after in pairwise(around)]
 
 
 class Means(NamedTuple):
@@ -189,12 +193,20 @@ class Estimation:
 
         Of their numbers they pay for those alone that regularities leave free.
         """
-        # With regularities all joints were drawn, none is there by chance.
-        joints, dearer = (len(pieces), DRAWN_DEARER) if told else (0, 0.0)
+        # With regularities joints were drawn, but those that turn little are there by chance.
+        # Without them what each piece is was chosen, too: one more number.
+        joints, dearer, chosen = 0, 0.0, len(pieces)
+        if told:
+            joints, dearer, chosen = self._n_clear_corners(pieces), DRAWN_DEARER, 0
         said = Evidence.of_pieces(pieces, self._degree, self.means, self.ordered, joints)
-        free = n_unknowns + (0 if self.ordered.closed else 2)
+        free = n_unknowns + chosen + (0 if self.ordered.closed else 2)
         cost = said.cost + PENALTY * (0.5 * free - said.n_stored_points)
         return cost <= self.smooth.cost + dearer
+
+    def _n_clear_corners(self, pieces: tuple[Piece, ...]) -> int:
+        """Corners that turn as much as those of data do."""
+        turns = _turns(pieces, closed=self.ordered.closed)
+        return sum(abs(turn) >= LEAST_TURN for turn in turns)
 
     def explains(self, evidence: Evidence) -> bool:
         """Whether a curve comes near all points."""

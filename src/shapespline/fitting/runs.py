@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline.analysis import NOISE_BAND, find_corners
-from shapespline.engines.least_squares import Smoothed, smoothed, straight_line
+from shapespline.engines.least_squares import Smoothed, smoothed, smoothed_to, straight_line
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
     from shapespline.monitor import Monitor
     from shapespline.typing import FloatArray, IntArray
 
-# A corner is one of n places: two runs must be cheaper than one by so many log n (FIT-28).
+# A corner is one of n places: two runs must be cheaper than one by so many log n (FIT-28). But what
+# turns by so many radians over such a part of the box diagonal is a corner to everybody: there one
+# run must be cheaper by as much (FIT-31).
 CORNER_PRICE = 1.5
+SHARP, SHARP_LENGTH = np.radians(90.0), 0.1
+# A corner is moved by at most so many points either way to where it is cheapest (FIT-31).
+MOST_MOVES = 4
+# Newton steps to where two runs cross, and the least sine of the angle between them there (FIT-31).
+CROSSING_STEPS, LEAST_CROSSING = 6, 1e-3
 
 
 class Runs:
@@ -30,13 +37,40 @@ class Runs:
     def kept_corners(self) -> IntArray:
         """Corners of the data, the faintest first given up where one run costs no more than two."""
         found = find_corners(self._contour, NOISE_BAND * self._noise)
+        near = found.length <= SHARP_LENGTH * self._contour.box_diagonal
+        price = CORNER_PRICE * float(np.log(len(self._contour)))
         kept = found.indices.tolist()
         for corner in sorted(kept, key=lambda i: float(found.turns[i])):
             others = [i for i in kept if i != corner]
-            price = CORNER_PRICE * np.log(len(self._contour))
-            if self._cost(others, near=corner) <= self._cost(kept, near=corner) + price:
+            dearer = -price if near and found.turns[corner] >= SHARP else price
+            if self._cost(others, near=corner) <= self._cost(kept, near=corner) + dearer:
                 kept = others
-        return np.array(kept, dtype=np.int64)
+        return np.array(sorted(self._placed(kept)), dtype=np.int64)
+
+    def _placed(self, corners: list[int]) -> list[int]:
+        """Corners moved to the points where the runs beside them, as large as they are, cost least.
+
+        A run that begins beyond its corner goes round it.
+        """
+        n, placed = len(self._contour), list(corners)
+        for k, corner in enumerate(corners):
+            sizes = [self._run(*run).n_control_points for run in self._beside(placed, corner)]
+            least = self._cost(placed, near=corner)
+            for way in (1, -1):
+                for _ in range(MOST_MOVES):
+                    at = placed[k] + way
+                    moved = [*placed[:k], at % n if self._contour.closed else at, *placed[k + 1 :]]
+                    runs = self._beside(moved, moved[k])
+                    if any(end - begin <= self._degree + 1 for begin, end in runs):
+                        break
+                    cost = sum(
+                        self._smoothed(*run, size).cost
+                        for run, size in zip(runs, sizes, strict=True)
+                    )
+                    if cost >= least:
+                        break
+                    placed, least = moved, cost
+        return placed
 
     def joined(self, corners: IntArray) -> tuple[FloatArray, int]:
         """The smoothed points of all runs, which meet in corners, and their control points."""
@@ -52,15 +86,13 @@ class Runs:
         return points, sum(run.n_control_points for run in runs)
 
     def _meet(self, before: Smoothed, left: FloatArray, after: Smoothed, right: FloatArray) -> None:
-        """Ends two runs where their tangents cross, or half-way if that is beyond the noise."""
-        u, v = before.tangent(-1), after.tangent(0)
-        gap, turn = right[0] - left[-1], u[0] * v[1] - u[1] * v[0]
-        corner = left[-1] + 0.5 * gap
-        if abs(turn) > 1e-3:
-            crossing = left[-1] + (gap[0] * v[1] - gap[1] * v[0]) / turn * u
-            if np.hypot(*(crossing - corner)) <= NOISE_BAND * self._noise:
-                corner = crossing
+        """Ends two runs where they cross if continued, or half-way if that is beyond the noise."""
         reach = NOISE_BAND * self._noise
+        crossing = _crossing(before.continued(-1), after.continued(0))
+        corner = left[-1] + 0.5 * (right[0] - left[-1])
+        u, v = before.tangent(-1), after.tangent(0)
+        if crossing is not None and np.hypot(*(crossing.point - corner)) <= reach:
+            corner, u, v = crossing
         for points, direction in ((left, u), (right, -v)):
             away = points - corner
             beyond = (away @ direction > 0) & (np.hypot(away[:, 0], away[:, 1]) <= reach)
@@ -69,12 +101,15 @@ class Runs:
 
     def _cost(self, corners: list[int], near: int) -> float:
         """Of the runs that hold a point."""
+        return sum(self._run(*run).cost for run in self._beside(corners, near))
+
+    def _beside(self, corners: list[int], near: int) -> list[tuple[int, int]]:
+        """The runs that hold a point, one that begins there last."""
         n = len(self._contour)
-        return sum(
-            self._run(*run).cost
-            for run in self._cut(corners)
-            if (near - run[0]) % n < run[1] - run[0]
-        )
+        runs = [
+            (begin, end) for begin, end in self._cut(corners) if (near - begin) % n < end - begin
+        ]
+        return sorted(runs, key=lambda run: run[0] % n == near)
 
     def _cut(self, corners: list[int]) -> list[tuple[int, int]]:
         """First and one past the last point of each run; neighbours share their corner."""
@@ -89,16 +124,48 @@ class Runs:
 
     def _run(self, begin: int, end: int) -> Smoothed:
         if (begin, end) not in self._known:
-            n = len(self._contour)
-            if end - begin == n and self._contour.closed:
-                run = self._contour
-            else:
-                points = self._contour.points[np.arange(begin, end) % n]
-                run = Contour.silently(points, closed=False)
-            few = len(run) <= self._degree + 1
-            self._known[begin, end] = (
-                straight_line(run, self._noise)
-                if few
-                else smoothed(run, self._degree, self._noise, monitor=self._monitor)
-            )
+            self._known[begin, end] = self._smoothed(begin, end, None)
         return self._known[begin, end]
+
+    def _smoothed(self, begin: int, end: int, size: int | None) -> Smoothed:
+        """Points from one to before another, smoothed to a size, or to that which costs least."""
+        n = len(self._contour)
+        if end - begin == n and self._contour.closed:
+            run = self._contour
+        else:
+            points = self._contour.points[np.arange(begin, end) % n]
+            run = Contour.silently(points, closed=False)
+        if len(run) <= self._degree + 1 or (size is not None and size <= self._degree):
+            return straight_line(run, self._noise)
+        if size is None:
+            return smoothed(run, self._degree, self._noise, monitor=self._monitor)
+        return smoothed_to(size, run, self._degree, self._noise, monitor=self._monitor)
+
+
+class _Crossing(NamedTuple):
+    """Where two curves cross and their unit directions there."""
+
+    point: FloatArray
+    before: FloatArray
+    after: FloatArray
+
+
+def _crossing(before: FloatArray, after: FloatArray) -> _Crossing | None:
+    """Where two polynomials cross near 0, None if they do not; coefficients (k, 2) each."""
+    at = np.zeros(2)
+    for _ in range(CROSSING_STEPS):
+        (p, u), (q, v) = (_of_polynomial(c, t) for c, t in zip((before, after), at, strict=True))
+        turn = u[0] * v[1] - u[1] * v[0]
+        if abs(turn) <= LEAST_CROSSING * np.hypot(*u) * np.hypot(*v) or np.abs(at).max() > 1.0:
+            return None
+        gap = q - p
+        at = at + np.array([gap[0] * v[1] - gap[1] * v[0], gap[0] * u[1] - gap[1] * u[0]]) / turn
+    (p, u), (_, v) = (_of_polynomial(c, t) for c, t in zip((before, after), at, strict=True))
+    return _Crossing(p, u / np.hypot(*u), v / np.hypot(*v))
+
+
+def _of_polynomial(coefficients: FloatArray, at: float) -> tuple[FloatArray, FloatArray]:
+    """Point and derivative."""
+    powers = at ** np.arange(len(coefficients))
+    slopes = np.arange(1, len(coefficients)) * powers[:-1]
+    return powers @ coefficients, slopes @ coefficients[1:]

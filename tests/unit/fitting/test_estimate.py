@@ -191,3 +191,36 @@ def test_a_noisy_square_with_round_corners_is_no_circle():
     square = Contour(np.concatenate(arcs), closed=True).resampled(100)
     for seed in range(3):
         assert fit_curve(shaken(square, 2.0, seed)).n_stored_points > 2
+
+
+def heart(n):
+    """A heart with a box diagonal of 129, its dent at the first point, its tip half-way."""
+    t = np.linspace(0, 2 * np.pi, 8000, endpoint=False)
+    y = 13 * np.cos(t) - 5 * np.cos(2 * t) - 2 * np.cos(3 * t) - np.cos(4 * t)
+    return Contour(np.column_stack([48 * np.sin(t) ** 3, 3 * y]), closed=True).resampled(n)
+
+
+@pytest.mark.parametrize(
+    ("n", "percent", "seed"),
+    [(300, 0.2, 0), (300, 0.2, 1), (1000, 0.05, 0), (5000, 0.05, 0), (5000, 0.2, 1)],
+)
+def test_tips_between_curves_stay_sharp_among_noise(n, percent, seed):
+    # The second to fourth had lost them, or were blunt: a short line at the tip (FIT-30, FIT-31).
+    noisy = shaken(heart(n), percent, seed)
+    fit = fit_curve(noisy)
+    assert len(fit.corners) == 2
+    tips, noise = np.array([(0.0, 15.0), (0.0, -51.0)]), percent / 100 * noisy.box_diagonal
+    far = cKDTree(fit.spline(fit.corners)).query(tips)[0]
+    # A tip of 40 degrees is as far off as its sides are, divided by the sine of half of that.
+    assert far.max() < 2 * noise / np.sin(np.radians(20))
+    assert min(np.hypot(*(p.control_points[-1] - p.control_points[0])) for p in fit.pieces) > 5
+
+
+def test_many_scattered_points_need_no_more_control_points():
+    # 34, 45 and 38 of them and no tip: sizes were compared by squares that chance doubled (FIT-30).
+    t = np.linspace(0, 2 * np.pi, 8000, endpoint=False)
+    points = np.column_stack([50 * np.cos(t), 28 * np.sin(t) * np.abs(np.sin(t / 2))])
+    drop = Contour(points, closed=True).resampled(5000)
+    for seed in range(3):
+        fit = fit_curve(shaken(drop, 0.05, seed))
+        assert (len(fit.corners), fit.n_stored_points <= 10) == (1, True)

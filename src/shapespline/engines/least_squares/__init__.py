@@ -21,6 +21,7 @@ from shapespline.engines.least_squares.smoothing import (
     Smoothed,
     smooth_start,
     smoothed,
+    smoothed_to,
     straight_line,
 )
 from shapespline.engines.least_squares.solve import (
@@ -92,6 +93,7 @@ __all__ = [
     "settings_of",
     "smooth_start",
     "smoothed",
+    "smoothed_to",
     "standardized",
     "start_of_some",
     "straight_line",

@@ -8,6 +8,7 @@ import numpy as np
 
 from shapespline.analysis import NOISE_BAND, resolution
 from shapespline.engines.least_squares.losses import counted
+from shapespline.engines.least_squares.problem import CurveProblem
 from shapespline.engines.least_squares.starts.equidistribution import Balanced, balanced_start
 from shapespline.engines.least_squares.trusted import trusted_start
 from shapespline.solvers import Limits
@@ -56,6 +57,19 @@ class Smoothed(NamedTuple):
             direction = spline([spline.domain[end]], derivative=1)[0]
         return direction / max(float(np.hypot(*direction)), np.finfo(float).tiny)
 
+    def continued(self, end: int) -> FloatArray:
+        """Coefficients (k, 2) of the polynomial beyond the first (0) or last (-1) point.
+
+        Of an open run, by powers of the parameter from there.
+        """
+        if self.start is None:
+            return np.array([self.points[end], self.points[-1] - self.points[0]])
+        spline, factor, rows = self.start.spline, 1.0, []
+        for k in range(spline.degree + 1):
+            rows.append(spline([spline.domain[end]], derivative=k)[0] / factor)
+            factor *= k + 1
+        return np.array(rows)
+
 
 def smoothed(
     contour: Contour,
@@ -78,14 +92,14 @@ def smoothed(
         size = smoothed(thinned, degree, noise, None, loss, monitor=monitor).n_control_points
         if size <= degree:
             return straight_line(contour, noise)
-        return _of_size(size, contour, degree, noise, None, loss, monitor=monitor)
+        return smoothed_to(size, contour, degree, noise, None, loss, monitor=monitor)
     best = Smoothed(contour.points, np.inf, len(contour), None)
     if not contour.closed and weights is None and loss is None:
         best = straight_line(contour, noise)
     most = max(degree + 1, int(LARGEST_PART * len(contour)))
     size, misses = degree + 1, 0
     while size <= most and (size <= AT_LEAST or misses < PATIENCE):
-        found = _of_size(size, contour, degree, noise, weights, loss, monitor=monitor)
+        found = smoothed_to(size, contour, degree, noise, weights, loss, monitor=monitor)
         best, misses = (found, 0) if found.cost < best.cost else (best, misses + 1)
         size = max(size + 1, round(SIZE_FACTOR * size))
         if monitor.ends(size):
@@ -93,14 +107,14 @@ def smoothed(
     middle = best.n_control_points
     for size in range(round(middle / SIZE_FACTOR) + 1, round(middle * SIZE_FACTOR)):
         if degree < size <= most and (size - middle) % max(1, round(FINEST * middle)) == 0:
-            found = _of_size(size, contour, degree, noise, weights, loss, monitor=monitor)
+            found = smoothed_to(size, contour, degree, noise, weights, loss, monitor=monitor)
             best = found if found.cost < best.cost else best
             if monitor.ends(size):
                 break
     return best
 
 
-def _of_size(
+def smoothed_to(
     size: int,
     contour: Contour,
     degree: int,
@@ -110,7 +124,7 @@ def _of_size(
     *,
     monitor: Monitor,
 ) -> Smoothed:
-    """The least-squares spline with so many control points."""
+    """The least-squares spline with so many control points, more than its degree."""
 
     def make(points: Contour, weights: FloatArray | None) -> Balanced:
         return balanced_start(
@@ -122,10 +136,22 @@ def _of_size(
         start, cost = trusted.start, float(counted(trusted.standardized, loss).sum())
         return Smoothed(start.spline(start.parameters), cost + PENALTY * size, size, start)
     start = make(contour, weights)
-    points = start.spline(start.parameters)
-    squares = ((points - contour.points) ** 2).sum(axis=1)
+    squares = _squares_at_feet(contour, start)
     total = float(squares.sum() if weights is None else weights @ squares)
+    points = start.spline(start.parameters)
     return Smoothed(points, total / noise**2 + PENALTY * size, size, start)
+
+
+def _squares_at_feet(contour: Contour, start: Balanced) -> FloatArray:
+    """Squared distances of the points from the curve, shape (n,).
+
+    Parameters in the order of points that scatter along the curve are none of foot points: a few
+    that wait for each other make their squares twice as large, by chance (FIT-30).
+    """
+    problem = CurveProblem(contour.points, start.spline, ends="free")
+    x = problem.pack(start.spline.control_points, start.parameters)
+    _, parameters = problem.unpack(problem.projected_nearby(x))
+    return ((start.spline(parameters) - contour.points) ** 2).sum(axis=1)
 
 
 def straight_line(contour: Contour, noise: float) -> Smoothed:
