@@ -24,7 +24,7 @@ from benchmarks.figure_style import (
     save,
 )
 from shapespline.analysis import noise_level
-from shapespline.engines.least_squares.smoothing import PENALTY, _of_size, smoothed
+from shapespline.engines.least_squares.smoothing import PENALTY, smoothed, smoothed_to
 from shapespline.monitor import Monitor
 from shapespline.solvers import Limits
 
@@ -82,7 +82,7 @@ def estimation_size() -> None:
     noise = noise_level(contour)
     found = smoothed(contour, 3, noise, monitor=Monitor())
     sizes = [*range(4, 24), *range(24, 61, 4)]
-    runs = [_of_size(size, contour, 3, noise, monitor=Monitor()) for size in sizes]
+    runs = [smoothed_to(size, contour, 3, noise, monitor=Monitor()) for size in sizes]
     price = np.array([PENALTY * size for size in sizes])
     cost = np.array([run.cost for run in runs])
     figure, (left, right) = canvas(12.5, 4.8, 2)

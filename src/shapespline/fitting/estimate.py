@@ -70,18 +70,20 @@ class Evidence(NamedTuple):
 
     ``cost`` is the sum of squared distances over the variance, and the price of what the curve
     stores; ``farthest`` the largest distance of a point, or of pieces
-    in either direction, data units.
+    in either direction, data units; ``worth`` what its sharp corners may cost (`Runs`).
     """
 
     cost: float
     farthest: float
     n_stored_points: int
     n_proven_corners: int = 0
+    worth: float = 0.0
 
     def preferred_to(self, smooth: Evidence) -> bool:
         """Whether pieces are better than one spline: no larger, and not too dear."""
         part = CHARACTER if self.n_proven_corners else NO_CORNERS
-        return self.cost <= part * smooth.cost and self.n_stored_points <= smooth.n_stored_points
+        most = part * smooth.cost + self.worth
+        return self.cost <= most and self.n_stored_points <= smooth.n_stored_points
 
     @classmethod
     def of_spline(cls, start: Balanced, means: Means, contour: Contour) -> Evidence:
@@ -194,12 +196,12 @@ class Estimation:
         Of their numbers they pay for those alone that regularities leave free.
         """
         # With regularities joints were drawn, but those that turn little are there by chance.
-        # Without them what each piece is was chosen, too: one more number.
-        joints, dearer, chosen = 0, 0.0, len(pieces)
+        # Without them every piece is one of three kinds, too, which costs log 3.
+        joints, dearer = 0, -float(np.log(3)) * len(pieces)
         if told:
-            joints, dearer, chosen = self._n_clear_corners(pieces), DRAWN_DEARER, 0
+            joints, dearer = self._n_clear_corners(pieces), DRAWN_DEARER
         said = Evidence.of_pieces(pieces, self._degree, self.means, self.ordered, joints)
-        free = n_unknowns + chosen + (0 if self.ordered.closed else 2)
+        free = n_unknowns + (0 if self.ordered.closed else 2)
         cost = said.cost + PENALTY * (0.5 * free - said.n_stored_points)
         return cost <= self.smooth.cost + dearer
 
@@ -273,7 +275,8 @@ class ObservedPieces:
             if request.constraints.ends and not work.closed:
                 pinned_exactly(pieces, work.points[[0, -1]])
             said = Evidence.of_pieces(pieces, degree, means, normalized.contour, len(at))
-            found.append((said._replace(farthest=said.farthest / normalized.scale), pieces))
+            farthest = said.farthest / normalized.scale
+            found.append((said._replace(farthest=farthest, worth=runs.worth), pieces))
         band = FARTHEST * NOISE_BAND * shown.noise
         said, pieces = min(found, key=lambda one: (one[0].farthest > band, one[0].cost))
         restored = normalized.restored(pieces)

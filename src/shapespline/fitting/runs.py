@@ -27,12 +27,16 @@ CROSSING_STEPS, LEAST_CROSSING = 6, 1e-3
 
 
 class Runs:
-    """A contour cut at corners, each run smoothed once."""
+    """A contour cut at corners, each run smoothed once.
+
+    ``worth`` is what one run would have to cost less for the sharp corners that were kept.
+    """
 
     def __init__(self, contour: Contour, degree: int, noise: float, monitor: Monitor) -> None:
         self._contour, self._degree, self._noise = contour, degree, noise
         self._monitor = monitor
         self._known: dict[tuple[int, int], Smoothed] = {}
+        self.worth = 0.0
 
     def kept_corners(self) -> IntArray:
         """Corners of the data, the faintest first given up where one run costs no more than two."""
@@ -40,11 +44,13 @@ class Runs:
         near = found.length <= SHARP_LENGTH * self._contour.box_diagonal
         price = CORNER_PRICE * float(np.log(len(self._contour)))
         kept = found.indices.tolist()
+        sharp = [i for i in kept if near and found.turns[i] >= SHARP]
         for corner in sorted(kept, key=lambda i: float(found.turns[i])):
             others = [i for i in kept if i != corner]
-            dearer = -price if near and found.turns[corner] >= SHARP else price
+            dearer = -price if corner in sharp else price
             if self._cost(others, near=corner) <= self._cost(kept, near=corner) + dearer:
                 kept = others
+        self.worth = price * len(set(kept) & set(sharp))
         return np.array(sorted(self._placed(kept)), dtype=np.int64)
 
     def _placed(self, corners: list[int]) -> list[int]:
