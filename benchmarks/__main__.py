@@ -15,6 +15,7 @@ from benchmarks import (
     peers_table,
     quality,
     scale,
+    tips,
     traced,
 )
 
@@ -26,6 +27,7 @@ if (quality.LARGE / "manifest.csv").exists():
 else:
     print(f"the large corpus is not at {quality.LARGE}: its quality table is left out")
 estimation.main()
+tips.main([])
 methods.main()
 traced.table(traced.TOLERANCE)
 ordering.table(None)

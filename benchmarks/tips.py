@@ -77,11 +77,11 @@ def counted(fit: ss.Fit, tips: NDArray[np.float64]) -> tuple[int, int]:
     return found, len(corners) - found
 
 
-def main() -> None:
+def main(arguments: list[str] | None = None) -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--seeds", type=int, default=3, help="noises of each kind")
-    n_seeds = parser.parse_args().seeds
+    n_seeds = parser.parse_args(arguments).seeds
     warnings.simplefilter("ignore")
     print("## Tips found of those that are there, false corners (points stored)\n")
     print("| shape | " + " | ".join(f"noise {percent} %" for percent in PERCENTS) + " |")

@@ -35,7 +35,7 @@ from shapespline.engines.pieces import PIECE_DEGREE, fit_observed, pinned_exactl
 from shapespline.errors import DegenerateContourError
 from shapespline.fitting.goals import Estimate, Within
 from shapespline.fitting.problem import Problem
-from shapespline.fitting.runs import Runs
+from shapespline.fitting.runs import KeptCorners, Runs
 from shapespline.fitting.settings import DEFAULT_METHOD
 from shapespline.fitting.strategies import measured_candidate, summed
 from shapespline.fitting.verify import Candidate
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from shapespline.engines.least_squares import Balanced, Minimized
     from shapespline.fitting.strategies import Ask, Proposals
     from shapespline.monitor import Monitor
-    from shapespline.typing import FloatArray, IntArray
+    from shapespline.typing import FloatArray
     from shapespline.values import BSplineCurve, Piece
 
 # A smoothed outline is followed within one of these numbers of its standard errors (FIT-01).
@@ -250,7 +250,7 @@ class ObservedPieces:
         means = self.estimation.means_of(normalized.contour, shown.noise * normalized.scale)
         work, noise = means
         runs = Runs(work, min(degree, PIECE_DEGREE), noise, monitor)
-        at = self._corners(problem, runs)
+        at, worth = self._corners(problem, runs)
         points, size = runs.joined(at)
         try:
             outline = Contour.silently(points, work.closed)
@@ -276,7 +276,7 @@ class ObservedPieces:
                 pinned_exactly(pieces, work.points[[0, -1]])
             said = Evidence.of_pieces(pieces, degree, means, normalized.contour, len(at))
             farthest = said.farthest / normalized.scale
-            found.append((said._replace(farthest=farthest, worth=runs.worth), pieces))
+            found.append((said._replace(farthest=farthest, worth=worth), pieces))
         band = FARTHEST * NOISE_BAND * shown.noise
         said, pieces = min(found, key=lambda one: (one[0].farthest > band, one[0].cost))
         restored = normalized.restored(pieces)
@@ -284,14 +284,13 @@ class ObservedPieces:
             pinned_exactly(restored, problem.contour.points[[0, -1]])
         return said, restored
 
-    def _corners(self, problem: Problem, runs: Runs) -> IntArray:
+    def _corners(self, problem: Problem, runs: Runs) -> KeptCorners:
         """The corners that the data prove, or those that were named, in canonical order."""
         corners = problem.request.style.corners
-        if corners is None:
-            return np.empty(0, dtype=np.int64)
         if isinstance(corners, str):
             return runs.kept_corners()
-        return np.unique(self.estimation.normalized.new_index[np.asarray(corners, dtype=np.int64)])
+        named = np.asarray(() if corners is None else corners, dtype=np.int64)
+        return KeptCorners(np.unique(self.estimation.normalized.new_index[named]), 0.0)
 
 
 @dataclass(frozen=True)

@@ -26,20 +26,30 @@ MOST_MOVES = 4
 CROSSING_STEPS, LEAST_CROSSING = 6, 1e-3
 
 
-class Runs:
-    """A contour cut at corners, each run smoothed once.
+class KeptCorners(NamedTuple):
+    """Indices of the corners that the data prove.
 
-    ``worth`` is what one run would have to cost less for the sharp corners that were kept.
+    ``worth`` is what one run would have to cost less for the sharp ones of them.
     """
+
+    indices: IntArray
+    worth: float
+
+
+class Runs:
+    """A contour cut at corners, each run smoothed once."""
 
     def __init__(self, contour: Contour, degree: int, noise: float, monitor: Monitor) -> None:
         self._contour, self._degree, self._noise = contour, degree, noise
         self._monitor = monitor
         self._known: dict[tuple[int, int], Smoothed] = {}
-        self.worth = 0.0
 
-    def kept_corners(self) -> IntArray:
-        """Corners of the data, the faintest first given up where one run costs no more than two."""
+    def kept_corners(self) -> KeptCorners:
+        """Corners of the data but those that one run spares, the faintest given up first.
+
+        It must cost no more than two and their price; where they are sharp, less by this price.
+        Those that are kept are moved to where the runs beside them cost least.
+        """
         found = find_corners(self._contour, NOISE_BAND * self._noise)
         near = found.length <= SHARP_LENGTH * self._contour.box_diagonal
         price = CORNER_PRICE * float(np.log(len(self._contour)))
@@ -50,8 +60,8 @@ class Runs:
             dearer = -price if corner in sharp else price
             if self._cost(others, near=corner) <= self._cost(kept, near=corner) + dearer:
                 kept = others
-        self.worth = price * len(set(kept) & set(sharp))
-        return np.array(sorted(self._placed(kept)), dtype=np.int64)
+        placed = np.array(sorted(self._placed(kept)), dtype=np.int64)
+        return KeptCorners(placed, price * len(set(kept) & set(sharp)))
 
     def _placed(self, corners: list[int]) -> list[int]:
         """Corners moved to the points where the runs beside them, as large as they are, cost least.

@@ -50,11 +50,7 @@ class Smoothed(NamedTuple):
 
     def tangent(self, end: int) -> FloatArray:
         """Unit direction at the first (0) or last (-1) point of an open run."""
-        if self.start is None:
-            direction = self.points[-1] - self.points[0]
-        else:
-            spline = self.start.spline
-            direction = spline([spline.domain[end]], derivative=1)[0]
+        direction = self.continued(end)[1]
         return direction / max(float(np.hypot(*direction)), np.finfo(float).tiny)
 
     def continued(self, end: int) -> FloatArray:
