@@ -182,25 +182,22 @@ class Images:
 
     def value(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """h, and its Jacobian by complex steps, which are exact to rounding."""
-        n, m = (2 if self.is_line else 3), len(self.a)
         taken, columns = self._taken, self._columns
-        z = x[taken].astype(complex)
-        h = self._values(z)
-        jacobian = np.zeros((n * m, len(self.index)))
-        rows = np.arange(n * m).reshape(n, m)
-        for k in range(taken.shape[1]):
-            z[:, k] += 1e-30j
-            slopes = np.imag(self._values(z)) * 1e30
-            z[:, k] = x[taken[:, k]]
-            for one in range(n):
-                np.add.at(jacobian, (rows[one], columns[:, k]), slopes[one])
+        n_taken = taken.shape[1]
+        # As they are, then each unknown a step beside.
+        z = np.repeat(x[taken].astype(complex)[None], n_taken + 1, axis=0)
+        z[np.arange(1, n_taken + 1), :, np.arange(n_taken)] += 1e-30j
+        h, slopes = np.split(self._values(z), [1])
+        rows = np.arange(h.size).reshape(h.shape)
+        jacobian = np.zeros((h.size, len(self.index)))
+        np.add.at(jacobian, (rows, columns.T[:, None]), np.imag(slopes) * 1e30)
         return np.real(h).ravel(), jacobian
 
     def _values(self, z: ComplexArray) -> ComplexArray:
-        """Shape (2 or 3, pairs)."""
-        u, v = z[:, -2], z[:, -1]
+        """Shape (tries, 2 or 3, pairs), of unknowns (tries, pairs, 6 or 8)."""
+        u, v = z[..., -2], z[..., -1]
         if self.is_line:
-            phi, d, psi, e = z[:, :4].T
+            phi, d, psi, e = np.moveaxis(z[..., :4], -1, 0)
             if self.angle is not None:
                 turned = phi + self.angle
                 off = np.cos(phi) * v - np.sin(phi) * u - d  # of the centre from the line
@@ -211,8 +208,8 @@ class Images:
                 far = np.cos(u) * py - np.sin(u) * px - v
                 px, py = px + 2 * far * np.sin(u), py - 2 * far * np.cos(u)
                 there = np.cos(turned) * py - np.sin(turned) * px
-            return np.stack([np.sin(psi - turned), e - there])
-        cx, cy, r, dx, dy, s = z[:, :6].T
+            return np.stack([np.sin(psi - turned), e - there], axis=-2)
+        cx, cy, r, dx, dy, s = np.moveaxis(z[..., :6], -1, 0)
         if self.angle is not None:
             c, sine = cos(self.angle), sin(self.angle)
             px = u + c * (cx - u) - sine * (cy - v)
@@ -220,7 +217,7 @@ class Images:
         else:
             far = np.cos(u) * cy - np.sin(u) * cx - v
             px, py = cx + 2 * far * np.sin(u), cy - 2 * far * np.cos(u)
-        return np.stack([dx - px, dy - py, s - r])
+        return np.stack([dx - px, dy - py, s - r], axis=-2)
 
 
 def equations(constraints: Sequence[Constraint], x: FloatArray) -> tuple[FloatArray, FloatArray]:

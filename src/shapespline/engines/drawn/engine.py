@@ -242,7 +242,7 @@ def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segm
     if rough is None:
         yield seen, row
         return
-    again = segmented(rough) if row.n_parameters(LONG * seen.pixel) >= LEAST_SAVED else row
+    again = segmented(rough, row) if row.n_parameters(LONG * seen.pixel) >= LEAST_SAVED else row
     if not _is_shorter(again, row, seen.pixel):
         yield seen, row
         if not is_enough(row):
@@ -250,7 +250,7 @@ def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segm
         yield rough, row
     yield rough, again
     slow = rough.slow()
-    yield slow, segmented(slow)
+    yield slow, segmented(slow, row)
 
 
 def _is_shorter(again: Segments, row: Segments, pixel: float) -> bool:

@@ -103,33 +103,38 @@ class Segments(NamedTuple):
         return _row(self.points[order], self.weights[order], (self.first + cut) % n, found)
 
 
-def segmented(seen: Observed) -> Segments:
-    """The segments of an outline."""
+def segmented(seen: Observed, known: Segments | None = None) -> Segments:
+    """The segments of an outline; those of a closed one with nodes near a known row's (DRA-27)."""
     if not seen.closed:
         return _merged(_solved(seen, 0)[0], seen)
-    start = sharpest(seen.points)
-    best, cost = _solved(seen, start)
+    n = len(seen.points)
+    if known is not None and len(known.found) > 1:
+        start = known.first
+        about = [segment.begin for segment in known.found[1:]]
+        best, cost = _solved(seen, start, about, _near(about, n))
+    else:
+        start = sharpest(seen.points)
+        best, cost = _solved(seen, start)
     # A second cut, at a node far from the first, frees the first one. Nodes stay where they are but
     # for some points, about the first one many.
     nodes = [segment.begin for segment in best.found[1:]]
     if nodes:
-        n = len(seen.points)
         far = min(nodes, key=lambda at: abs(at - n / 2))
         begin = (start + far) % n
         about = [(at - far) % n for at in nodes]
-        first = (n - far) % n
-        near = np.concatenate(
-            [
-                np.add.outer(about, np.arange(-NEAR, NEAR + 1)).ravel(),
-                first + np.arange(-FREED, FREED + 1),
-            ]
-        )
+        near = np.concatenate([_near(about, n), (n - far) % n + np.arange(-FREED, FREED + 1)])
         again, other = _solved(seen, begin, about, distinct(near[(near > 0) & (near < n)]))
         if other <= cost * (1 + 1e-12):
             best = again
     best = _merged(best, seen)
     whole = next((k for k, s in enumerate(best.found) if s.kind != FREE), 0)
     return best.turned(whole)
+
+
+def _near(nodes: Sequence[int], n: int) -> IntArray:
+    """Some points of a row of n + 1 and their neighbours, without its ends."""
+    near = np.add.outer(nodes, np.arange(-NEAR, NEAR + 1)).ravel()
+    return distinct(near[(near > 0) & (near < n)])
 
 
 def sharpest(points: FloatArray) -> int:
