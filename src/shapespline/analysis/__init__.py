@@ -3,7 +3,7 @@
 from shapespline.analysis.corners import LEAST_TURN, LOW_TURN, find_corners
 from shapespline.analysis.cpda import Cpda, bending, check_window, chord_to_point, local_maxima
 from shapespline.analysis.mirror import Mirror, find_mirror
-from shapespline.analysis.noise import largest_bulge, noise_level
+from shapespline.analysis.noise import bends_evenly, largest_bulge, noise_level
 from shapespline.analysis.normalization import (
     FEW_LEFT,
     LONGEST_CHORD,
@@ -57,6 +57,7 @@ __all__ = [
     "averaged",
     "averages",
     "bending",
+    "bends_evenly",
     "best_width",
     "canonical_reading",
     "check_window",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.analysis.noise import noise_level
+from shapespline.analysis.noise import bends_evenly, noise_level
 from shapespline.validation import median
 from shapespline.values import Contour
 
@@ -45,6 +45,9 @@ MOST_POINTS = 10_000
 # Around a bend that the points resolve the curvature changes by no more than this part of its peak
 # from one to the next; at a corner it springs up, and where a line runs into an arc (ANA-05).
 GRADUAL_PART = 0.45
+# Of points that bend evenly one in fewer than so many is no corner: they are sparse for what they
+# follow (ANA-18).
+SPARSE_EVERY = 12
 # Corners keep this part of the length apart.
 APART = 0.6
 
@@ -112,6 +115,9 @@ def _found(contour: Contour, tolerance: float, sigma: float) -> Corners:
         for bend in indices[are_bends]:
             turns[_gaps(along, along[bend], lap) <= length] = 0.0
         indices = indices[~are_bends]
+    if len(indices) * SPARSE_EVERY > len(contour) and bends_evenly(contour.polyline):
+        turns[turns >= LOW_TURN] = 0.0
+        indices = indices[:0]
     return Corners(indices, turns, length)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from shapespline.validation import median
 
 if TYPE_CHECKING:
+    from shapespline.typing import FloatArray
     from shapespline.values import Contour
 
 # Points on each side of the middle of a local fit (ANA-01).
@@ -23,6 +24,9 @@ MOST_WINDOWS = 5_000
 FEWEST_POINTS = 64
 # Fewer vertices that turn evenly may be a polygon's.
 FEWEST_OF_CURVE = 24
+# Points bend evenly if cubics leave less than this part of what chords leave: a corner's share
+# (PIE-30). So many points are one that its neighbours tell.
+EVEN_PART, FEWEST_TO_PREDICT = 0.65, 5
 # A cubic fitted to a window: its slope in the middle, and what is left of every point.
 _POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
 _FIT = np.linalg.pinv(_POWERS)
@@ -90,3 +94,24 @@ def largest_bulge(contour: Contour) -> float:
     bulge = float(np.hypot(*(b + c - a - d).T).max()) / 16
     rest = float(np.hypot(*(a - 4 * b + 6 * c - 4 * d + e).T).max()) / 6
     return bulge if rest < bulge else 0.0
+
+
+def bends_evenly(points: FloatArray) -> bool:
+    """Whether a row of points bends as a smooth curve does, rather than corners and noise.
+
+    What a cubic through the two neighbours on either side leaves of a point is less than two thirds
+    of what a chord leaves, in the root mean square: at a corner between edges it is as much.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 2 * np.pi, 20)
+    >>> bends_evenly(np.column_stack([np.cos(t), np.sin(t)]))
+    True
+    >>> bends_evenly(np.column_stack([t, np.abs(t - t[10])]))
+    False
+    """
+    if len(points) < FEWEST_TO_PREDICT:
+        return False
+    a, b, c, d, e = (points[k : len(points) - 4 + k] for k in range(5))
+    chord, cubic = b - 2 * c + d, (a - 4 * b + 6 * c - 4 * d + e) / 3
+    return float((cubic**2).sum()) < EVEN_PART**2 * float((chord**2).sum())

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from shapespline.fitting.strategies import ONE_SPLINE, PIECES, SMOOTHED
+
 if TYPE_CHECKING:
     from shapespline.fitting.problem import Problem
     from shapespline.fitting.verify import Verified
@@ -25,10 +27,10 @@ class Shortlist:
     3. it is as it was drawn, where that was asked for;
     4. the curve is fair (even knots, no near-cusp, no crossing that the data have not), where it
        stands in for corners of the data; it does not wave where the data do not, wherever;
-    5. no corners where the data have none, if one smooth spline follows them;
+    5. no corners where the data have none, if one smooth spline follows them, or one a run does;
     6. the fewest stored points; of curves that miss the tolerance the nearest;
-    7. the simpler structure: lines and arcs, one spline, a symmetric one, pieces, lines, a line
-       from each point to the next;
+    7. the simpler structure: lines and arcs, one spline, a symmetric one, pieces, lines,
+       a line from each point to the next;
     8. the one that was found first.
     """
 
@@ -84,6 +86,8 @@ class Shortlist:
 
     def _makes_corners(self, verified: Verified) -> bool:
         """Whether a curve has corners where the data, which a smooth one follows, have none."""
+        if any(self._spares_corners(one, verified) for one in self._verified):
+            return True
         if not verified.fit.sections or self._problem.has_corners:
             return False
         if verified.candidate.rank in (DRAWN, FEW_DRAWN):  # its corners are where edges meet
@@ -91,3 +95,13 @@ class Shortlist:
         if self._problem.request.style.free or not len(verified.fit.corners):
             return False
         return any(self.follows(one) for one in self._verified if not one.fit.sections)
+
+    @staticmethod
+    def _spares_corners(smooth: Verified, other: Verified) -> bool:
+        """Whether one spline a run, or one for all, stands for what turns where it need not."""
+        ranks, n_corners = (smooth.candidate.rank, other.candidate.rank), len(other.fit.corners)
+        if ranks == (SMOOTHED, PIECES):  # which was asked what it may cost
+            return smooth.kept
+        is_fair = smooth.kept and smooth.fair and not smooth.waves
+        no_dearer = smooth.fit.n_stored_points <= other.fit.n_stored_points + n_corners
+        return ranks == (ONE_SPLINE, SMOOTHED) and is_fair and no_dearer

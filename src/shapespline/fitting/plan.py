@@ -27,13 +27,14 @@ from shapespline.fitting.estimate import (
     WeightedSpline,
 )
 from shapespline.fitting.goals import Estimate, OfSize
-from shapespline.fitting.smooth import SmoothRuns
+from shapespline.fitting.smooth import SmoothInstead, SmoothRuns
 from shapespline.fitting.strategies import (
     EVERY_POINT,
     LINES,
     MIRRORED,
     ONE_SPLINE,
     PIECES,
+    SMOOTHED,
     LeastSquares,
     Lines,
     MirroredPieces,
@@ -107,7 +108,7 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
         yield SmoothRuns(ask)
         return
     if request.pieces_only:
-        yield from plan_pieces(problem, shortlist)
+        yield from plan_pieces(problem, shortlist, ask)
         return
     if request.style.character == "drawn":
         yield DrawnPieces(ask)
@@ -126,15 +127,17 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
             yield MirroredPieces(ask)
         if request.symmetric and shortlist.among(MIRRORED):
             return
-    yield from plan_pieces(problem, shortlist)
+    yield from plan_pieces(problem, shortlist, ask)
     in_pieces = shortlist.among(MIRRORED, PIECES, LINES, EVERY_POINT)
     if shortlist.among(ONE_SPLINE) or in_pieces is None:
         return
     if _one_spline_may_be_better(problem, in_pieces):
-        yield OneSpline(in_pieces.fit.n_stored_points if in_pieces.kept else inf)
+        best = shortlist.best
+        most = best.fit.n_stored_points + len(best.fit.corners)
+        yield OneSpline(most if best.kept else inf)
 
 
-def plan_pieces(problem: Problem, shortlist: Shortlist) -> Iterator[Strategy]:
+def plan_pieces(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[Strategy]:
     """Pieces alone: curves, lines where they are fewer, at last a line for every point."""
     request, rough = problem.request, ROUGH_PART * len(problem.contour)
     # Where the caller knows the corners lines would make others.
@@ -151,6 +154,9 @@ def plan_pieces(problem: Problem, shortlist: Shortlist) -> Iterator[Strategy]:
                 return
         yield Pieces(TOLERANCE_FACTORS[1:])
         found = shortlist.among(PIECES)
+    if found is not None and found.kept and not request.style.free:
+        yield SmoothInstead(found, ask)
+        found = shortlist.among(SMOOTHED, PIECES)
     count = found.fit.n_stored_points if found is not None and found.kept else inf
     few, no_lines = count <= rough, True
     if may_be_lines:

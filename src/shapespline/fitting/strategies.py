@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     Ask: TypeAlias = Callable[[Problem, Monitor], Verified]
 
 # The simpler structure has the smaller rank; see `choose`.
-ONE_SPLINE, MIRRORED, PIECES, LINES, EVERY_POINT = range(5)
+ONE_SPLINE, MIRRORED, SMOOTHED, PIECES, LINES, EVERY_POINT = range(6)
 # A turn into a tangent is so many times as long as what is left of the tolerance: its first
 # control point moves by up to two thirds of its length, the curve by 4/9 of that (PIE-24).
 TURN_PART = 2.0
