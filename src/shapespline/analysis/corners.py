@@ -46,8 +46,8 @@ MOST_POINTS = 10_000
 # from one to the next; at a corner it springs up, and where a line runs into an arc (ANA-05).
 GRADUAL_PART = 0.45
 # Of points that bend evenly one in fewer than so many is no corner: they are sparse for what they
-# follow (ANA-18).
-SPARSE_EVERY = 12
+# follow. But what turns by more than a bend of three points is a way back (ANA-18).
+SPARSE_EVERY, WAY_BACK = 12, np.radians(135.0)
 # Corners keep this part of the length apart.
 APART = 0.6
 
@@ -116,8 +116,8 @@ def _found(contour: Contour, tolerance: float, sigma: float) -> Corners:
             turns[_gaps(along, along[bend], lap) <= length] = 0.0
         indices = indices[~are_bends]
     if len(indices) * SPARSE_EVERY > len(contour) and bends_evenly(contour.polyline):
-        turns[turns >= LOW_TURN] = 0.0
-        indices = indices[:0]
+        turns[(turns >= LOW_TURN) & (turns < WAY_BACK)] = 0.0
+        indices = indices[turns[indices] > 0.0]
     return Corners(indices, turns, length)
 
 

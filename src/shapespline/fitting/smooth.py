@@ -34,11 +34,13 @@ if TYPE_CHECKING:
 # A corner of pieces may be so many tolerances away from that of the data: over that length the data
 # are told to turn (PIE-30).
 REACH = 8.0
-# A spline that leaves a corner in a direction that differs from the pieces' by a corner rounds it
-# (PIE-30).
-SAME_CORNER = LEAST_TURN
+# A spline leaves a corner in the direction that pieces had, but for this part of the corner's turn
+# and less than a corner: else it rounds it (PIE-30).
+SAME_PART, SAME_TURN = 0.25, LEAST_TURN
 # What turns by more is a corner even if the data tell none there (PIE-30).
 MOST_NEEDLESS = np.radians(60.0)
+# So much of an outline must be in runs that are not rough.
+EVEN_SHARE = 0.5
 # Hooks are looked for by chords within this part of the tolerance.
 SAMPLING_PART = 0.02
 
@@ -89,10 +91,7 @@ class SmoothInstead:
 
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
         """One curve, if a run became smooth."""
-        n_stored = self.found.fit.n_stored_points
-        if len(problem.request.constraints.through) or _are_rough(
-            problem.contour.polyline, n_stored
-        ):
+        if len(problem.request.constraints.through):
             return
         between = _BetweenCorners.of(problem, self.found.fit.sections)
         if not between.cuts:
@@ -100,17 +99,24 @@ class SmoothInstead:
             return
         pieces: list[Piece] = []
         runs = list(between.runs(problem.request.constraints))
-        # Pieces about a hook are fitted again, which long ones do not bear.
-        if not any(run.n_turns for run in runs) or _has_hooks(self.found.fit.spline, problem):
+        smooth = [run for run in runs if not run.is_rough]
+        # A few runs of rough data are even by chance. Pieces about a hook are fitted again, which
+        # long ones do not bear.
+        if (
+            sum(len(run.points) for run in smooth) < EVEN_SHARE * len(between.row)
+            or not any(run.n_turns for run in smooth)
+            or _has_hooks(self.found.fit.spline, problem)
+        ):
             return
         for run in runs:
-            spline = self._instead(run, problem, monitor) if run.n_turns else None
+            turns = run.n_turns and not run.is_rough
+            spline = self._instead(run, problem, monitor) if turns else None
             pieces += run.pieces if spline is None else [spline]
         if len(pieces) == len(between.pieces):
             return
-        smooth = joined(pieces, problem.request.style.degree)
-        if not _has_hooks(smooth, problem):
-            yield Candidate(method="sections", rank=SMOOTHED, pieces=tuple(pieces), spline=smooth)
+        curve = joined(pieces, problem.request.style.degree)
+        if not _has_hooks(curve, problem):
+            yield Candidate(method="sections", rank=SMOOTHED, pieces=tuple(pieces), spline=curve)
 
     def _whole(self, between: _BetweenCorners, problem: Problem, monitor: Monitor) -> Proposals:
         """One spline of a closed outline whose corners pieces gave up."""
@@ -120,8 +126,7 @@ class SmoothInstead:
     def _instead(self, run: _Run, problem: Problem, monitor: Monitor) -> Piece | None:
         """One spline from end to end, if it costs at most a point for each turn that it spares."""
         first, last = run.pieces[0], run.pieces[-1]
-        n_stored = sum(piece.n_stored for piece in run.pieces)
-        if run.is_held or _are_rough(run.points, n_stored) or _any_straight(run.pieces, problem):
+        if run.is_held or _any_straight(run.pieces, problem):
             return None
         points = run.points.copy()
         points[0], points[-1] = first.control_points[0], last.control_points[-1]
@@ -130,23 +135,40 @@ class SmoothInstead:
             return None
         spline = _as_piece(found.fit.spline)
         begin, end = slice(2), slice(-2, None)
-        stays = (
-            _angle(first.control_points[begin], spline.control_points[begin]) <= SAME_CORNER
-            and _angle(last.control_points[end], spline.control_points[end]) <= SAME_CORNER
+        off = (
+            _angle(first.control_points[begin], spline.control_points[begin]),
+            _angle(last.control_points[end], spline.control_points[end]),
         )
-        return spline if stays and spline.n_stored <= n_stored + run.n_turns else None
+        stays = all(
+            angle <= min(SAME_PART * turn, SAME_TURN)
+            for angle, turn in zip(off, run.end_turns, strict=True)
+        )
+        return spline if stays and spline.n_stored <= run.n_stored + run.n_turns else None
 
 
 class _Run(NamedTuple):
     """Pieces between two cuts, the data there, and how many joints inside turn like corners.
 
+    ``end_turns`` are the turns of the corners at both ends, radians, pi where the outline ends;
     ``is_held`` tells whether a tangent at an end is kept.
     """
 
     pieces: tuple[Piece, ...]
     points: FloatArray
     n_turns: int
+    end_turns: tuple[float, float]
     is_held: bool
+
+    @property
+    def n_stored(self) -> int:
+        """Points that the pieces store."""
+        return sum(piece.n_stored for piece in self.pieces)
+
+    @property
+    def is_rough(self) -> bool:
+        """Whether so many stored points follow data that no smooth curve follows with few."""
+        few = self.n_stored <= ROUGH_PART * len(self.points)
+        return not (few or bends_evenly(self.points))
 
 
 class _Cut(NamedTuple):
@@ -159,15 +181,15 @@ class _Cut(NamedTuple):
 class _BetweenCorners(NamedTuple):
     """Pieces and data in a row, cut where both have a corner and at the ends.
 
-    ``turns`` are pieces that begin with a corner, whether the data have one or not. A closed
-    outline's row begins and ends in the same corner, whatever the order of the data; without one it
-    has no cuts.
+    ``turns`` are those of pieces that begin with a corner, whether the data have one or not,
+    radians. A closed outline's row begins and ends in the same corner, whatever the order of the
+    data; without one it has no cuts.
     """
 
     pieces: tuple[Piece, ...]
     row: FloatArray
     cuts: list[_Cut]
-    turns: list[int]
+    turns: dict[int, float]
 
     @classmethod
     def of(cls, problem: Problem, pieces: tuple[Piece, ...]) -> _BetweenCorners:
@@ -179,7 +201,7 @@ class _BetweenCorners(NamedTuple):
         cuts = _common(problem, pieces, turns)
         if contour.closed:
             if not cuts:
-                return cls(pieces, contour.points, [], list(turns))
+                return cls(pieces, contour.points, [], turns)
             first = cuts[0]
             pieces = (*pieces[first.piece :], *pieces[: first.piece])
             turns = {(k - first.piece) % n: turn for k, turn in turns.items()}
@@ -195,16 +217,18 @@ class _BetweenCorners(NamedTuple):
         # Where both come in another order no corner is sure.
         if any(after.point <= before.point for before, after in pairwise(cuts)):
             cuts, turns = [], {}
-        return cls(pieces, row, cuts, list(turns))
+        return cls(pieces, row, cuts, turns)
 
     def runs(self, constraints: Constraints) -> Iterator[_Run]:
         """From cut to cut."""
         for begin, end in pairwise(self.cuts):
             ends = (begin == self.cuts[0], end == self.cuts[-1])
+            turns = [self.turns.get(cut.piece % len(self.pieces), np.pi) for cut in (begin, end)]
             yield _Run(
                 self.pieces[begin.piece : end.piece],
                 self.row[begin.point : end.point + 1],
                 sum(begin.piece < k < end.piece for k in self.turns),
+                (turns[0], turns[1]),
                 any(at and t is not None for at, t in zip(ends, constraints.tangents, strict=True)),
             )
 
@@ -259,11 +283,6 @@ def _one_spline(run: Contour, problem: Problem, ask: Ask, monitor: Monitor) -> V
         is_part=True,
     )
     return ask(Problem(asked), monitor)
-
-
-def _are_rough(points: FloatArray, n_stored: int) -> bool:
-    """Whether so many stored points follow a row of points that no smooth curve does with few."""
-    return n_stored > ROUGH_PART * len(points) and not bends_evenly(points)
 
 
 def _angle(leg: FloatArray, other: FloatArray) -> float:
