@@ -27,7 +27,8 @@ from shapespline.fitting.estimate import (
     WeightedSpline,
 )
 from shapespline.fitting.goals import Estimate, OfSize
-from shapespline.fitting.smooth import SmoothInstead, SmoothRuns
+from shapespline.fitting.smooth import SmoothRuns
+from shapespline.fitting.smooth_instead import SmoothInstead
 from shapespline.fitting.strategies import (
     EVERY_POINT,
     LINES,
