@@ -124,16 +124,27 @@ def runs_of(problem: Problem, pieces: tuple[Piece, ...]) -> list[Run]:
 
 
 def _corners(problem: Problem, pieces: Sequence[Piece], turns: dict[int, float]) -> list[_Cut]:
-    """Corners of both that are nearest to each other, and sharp ones of pieces."""
-    data, corners, found = problem.contour.points, corners_of(problem), dict.fromkeys(turns, -1)
-    starts = np.array([pieces[k].control_points[0] for k in turns])
+    """Corners of both that are nearest to each other, and sharp ones of pieces.
+
+    In canonical order: of data that lie on themselves several points are as near.
+    """
+    data, order = problem.contour.points, problem.normalized.order
+    at = {k: int(_far(data[order], pieces[k]).argmin()) for k in turns}
+    way = -1 if problem.normalized.reversed else 1
+    joints = sorted(turns, key=lambda k: (at[k], way * k))
+    corners, found = corners_of(problem), dict.fromkeys(joints, -1)
     if len(corners):
-        away = starts - data[corners][:, None]
-        far = np.hypot(away[..., 0], away[..., 1])
+        far = np.column_stack([_far(data[corners], pieces[k]) for k in joints])
         for i, k in enumerate(far.argmin(axis=1).tolist()):
             if far[i, k] <= REACH * problem.tolerance and far[:, k].argmin() == i:
-                found[list(turns)[k]] = int(corners[i])
-    for start, (k, turn) in zip(starts, turns.items(), strict=True):
-        if found[k] < 0 and turn > MOST_NEEDLESS:
-            found[k] = int(((data - start) ** 2).sum(axis=1).argmin())
+                found[joints[k]] = int(corners[i])
+    for k in joints:
+        if found[k] < 0 and turns[k] > MOST_NEEDLESS:
+            found[k] = int(order[at[k]])
     return [_Cut(k, point) for k, point in found.items() if point >= 0]
+
+
+def _far(points: FloatArray, piece: Piece) -> FloatArray:
+    """Distances of points from the beginning of a piece."""
+    away = points - piece.control_points[0]
+    return np.hypot(away[:, 0], away[:, 1])

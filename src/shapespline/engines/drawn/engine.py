@@ -135,11 +135,11 @@ def _of_row(
     while (fewer := without_few(model)) is not None and n_few < MOST_WRONG:
         model, n_few = Model.of(seen, fewer, model, ends), n_few + 1
     best = _estimated(model, model.row, tolerance)
-    filleted = None if seen.pixel else with_fillets(model)
-    other = None if filleted is None else _estimated(model, filleted, tolerance)
-    if other is not None:
-        whole = other.model.row is filleted
-        best = other if best is None or (whole and other.cost < best.cost) else best
+    for filleted in () if seen.pixel else _filleted(model):
+        other = _estimated(model, filleted, tolerance)
+        if other is not None:
+            whole = other.model.row is filleted
+            best = other if best is None or (whole and other.cost < best.cost) else best
     if best is not None and (row := _shared_anew(best.model).row) is not best.model.row:
         other = _estimated(model, row, tolerance)
         if other is not None and other.model.row is row and other.cost < best.cost:
@@ -151,6 +151,15 @@ def _of_row(
         model = Model.of(seen, model.row, model, ends)
         found = Search(model, regularities).run()
     return _drawn(_shared_anew(model), found, tolerance, told)
+
+
+def _filleted(model: Model) -> Iterator[Segments]:
+    """Rows with fillets: where the points tell them, and all alike if that is another one."""
+    told, alike = with_fillets(model), with_fillets(model, all_alike=True)
+    if told is not None:
+        yield told
+    if alike is not None and (told is None or alike.found != told.found):
+        yield alike
 
 
 class Estimated(NamedTuple):

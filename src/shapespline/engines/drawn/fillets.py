@@ -40,8 +40,11 @@ class Fillet(NamedTuple):
     end: int
 
 
-def with_fillets(model: Model) -> Segments | None:
-    """The row with fillets between edges wherever shorter elements or too little lie; or None."""
+def with_fillets(model: Model, *, all_alike: bool = False) -> Segments | None:
+    """The row with fillets between edges wherever shorter elements or too little lie; or None.
+
+    ``all_alike`` takes them for all shorter elements, though some are told by these as well.
+    """
     row, n, closed = model.row, len(model.row.found), model.seen.closed
     fillets: dict[int, Fillet] = {}
     edges: set[int] = set()
@@ -53,7 +56,7 @@ def with_fillets(model: Model) -> Segments | None:
                 continue
             if not gone.isdisjoint((k, after)) or not (edges | gone).isdisjoint(inner):
                 continue
-            found = _fillet(model, k, tuple(inner), after)
+            found = _fillet(model, k, tuple(inner), after, forced=all_alike and m > 0)
             if found is not None:
                 fillets[k] = found
                 edges |= {k, after}
@@ -79,7 +82,7 @@ def with_fillets(model: Model) -> Segments | None:
     return row if all(j - i >= FEWEST for i, j, _ in row.found) else None
 
 
-def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int) -> Fillet | None:
+def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int, *, forced: bool) -> Fillet | None:
     """The best one between two lines, if what lies there turns as it does."""
     if a == b or not all(k in model.at for k in (a, *inner, b)):
         return None
@@ -140,7 +143,8 @@ def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int) -> Fillet | No
     radii = largest * (RADII if inner else CUTS)
     best = min(radii.tolist(), key=lambda radius: told_by(radius)[0])
     left, p, q = min(told_by(radius) for radius in (best * FINER).tolist())
-    return Fillet(a, inner, b, first + p, first + q) if left < least else None
+    told = left < (np.inf if forced else least)
+    return Fillet(a, inner, b, first + p, first + q) if told else None
 
 
 def _turn(u: FloatArray, v: FloatArray) -> float:
