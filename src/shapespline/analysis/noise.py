@@ -24,8 +24,8 @@ MOST_WINDOWS = 5_000
 FEWEST_POINTS = 64
 # Fewer vertices that turn evenly may be a polygon's.
 FEWEST_OF_CURVE = 24
-# Points bend evenly if cubics leave less than this part of what chords leave: a corner's share
-# (PIE-30). So many points are one that its neighbours tell.
+# Points bend evenly if cubics leave less than this part of what chords leave (PIE-30). So many are
+# one that its neighbours tell.
 EVEN_PART, FEWEST_TO_PREDICT = 0.65, 5
 # A cubic fitted to a window: its slope in the middle, and what is left of every point.
 _POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
@@ -99,8 +99,8 @@ def largest_bulge(contour: Contour) -> float:
 def bends_evenly(points: FloatArray) -> bool:
     """Whether a row of points bends as a smooth curve does, rather than corners and noise.
 
-    What a cubic through the two neighbours on either side leaves of a point is less than two thirds
-    of what a chord leaves, in the root mean square: at a corner between edges it is as much.
+    What a cubic through the two neighbours on either side leaves of a point is less than 0.65 of
+    what a chord leaves, in the root mean square. A corner between edges leaves 0.82, noise 1.14.
 
     Examples
     --------

@@ -29,8 +29,8 @@ class Shortlist:
        stands in for corners of the data; it does not wave where the data do not, wherever;
     5. no corners where the data have none, if one smooth spline follows them, or one a run does;
     6. the fewest stored points; of curves that miss the tolerance the nearest;
-    7. the simpler structure: lines and arcs, one spline, a symmetric one, pieces, lines,
-       a line from each point to the next;
+    7. the simpler structure: lines and arcs, one spline, a symmetric one, one spline a run, pieces,
+       lines, a line from each point to the next;
     8. the one that was found first.
     """
 

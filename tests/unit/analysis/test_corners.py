@@ -73,6 +73,18 @@ def test_the_tip_of_an_ellipse_is_a_bend_even_of_few_points(n, aspect):
     assert len(find_corners(tips, 0.02).indices) == 0
 
 
+def test_bends_of_few_points_are_no_corners_but_a_way_back_is():
+    # Nine points a wave: all of its bends were corners (ANA-18).
+    x = np.arange(70.0)
+    wave = np.column_stack([x, 2 * np.sin(2 * np.pi * x / 9 + 0.3)])
+    assert not len(find_corners(Contour(wave, closed=False)).indices)
+    there_and_back = np.concatenate([wave, wave[-2::-1]])
+    assert find_corners(Contour(there_and_back, closed=False)).indices.tolist() == [69]
+    # The folds of a zigzag are, but for those too near to an end.
+    zigzag = np.column_stack([x, 3 * np.abs(x % 10 - 5)])
+    assert find_corners(Contour(zigzag, closed=False)).indices.tolist() == [*range(10, 61, 5)]
+
+
 def test_a_corner_between_two_points_stays_one():
     cut = polygon([(0, 0), (40, 0), (40, 30), (0, 30)], 40)
     middles = 0.5 * (cut.points + np.roll(cut.points, -1, axis=0))

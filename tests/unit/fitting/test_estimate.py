@@ -193,6 +193,20 @@ def test_a_noisy_square_with_round_corners_is_no_circle():
         assert fit_curve(shaken(square, 2.0, seed)).n_stored_points > 2
 
 
+def test_noisy_round_corners_are_fillets_all_alike():
+    # An octagon, as chance preferred two of its eight chamfers (DRA-28).
+    t = np.linspace(0, np.pi / 2, 2000, endpoint=False)
+    inner = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
+    arcs = [
+        at + np.column_stack([np.cos(t + k * np.pi / 2), np.sin(t + k * np.pi / 2)])
+        for k, at in enumerate(inner)
+    ]
+    square = Contour(np.concatenate(arcs), closed=True).resampled(500)
+    fit = fit_curve(shaken(square, 2.0, 1))
+    assert sorted(piece.kind for piece in fit.pieces) == 4 * ["arc"] + 4 * ["line"]
+    assert not len(fit.corners)
+
+
 def heart(n):
     """A heart with a box diagonal of 129, its dent at the first point, its tip half-way."""
     t = np.linspace(0, 2 * np.pi, 8000, endpoint=False)
