@@ -14,6 +14,7 @@ from shapespline.fitting.smooth import as_piece, one_spline
 from shapespline.fitting.strategies import SMOOTHED, OneSpline
 from shapespline.fitting.verify import Candidate
 from shapespline.geometry import chords, hooks, joined
+from shapespline.validation import median
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 SAME_PART, SAME_TURN = 0.25, np.radians(25.0)
 # So much of an outline must be in runs that are not rough (PIE-30).
 EVEN_SHARE = 0.5
+# What is longer than so many steps of a picture's points was drawn as a line (PIE-30).
+LONG_CHORD = 3.0
 # Hooks are looked for by chords within this part of the tolerance.
 SAMPLING_PART = 0.02
 
@@ -61,7 +64,7 @@ class SmoothInstead:
         ):
             return
         if runs[0].is_ring:
-            if _any_straight(runs[0].pieces, problem):
+            if _any_straight(runs[0], problem):
                 return
             yield from OneSpline(self.found.fit.n_stored_points).propose(problem, monitor)
             return
@@ -78,7 +81,7 @@ class SmoothInstead:
 
     def _instead(self, run: Run, problem: Problem, monitor: Monitor) -> Piece | None:
         """One spline from end to end, if it costs at most a point for each turn that it spares."""
-        if _any_straight(run.pieces, problem):
+        if _any_straight(run, problem):
             return None
         found = one_spline(Contour.silently(run.points, False), problem, self.ask, monitor)
         if not (found.kept and found.fair) or _has_hooks(found.fit.spline, problem):
@@ -93,9 +96,17 @@ class SmoothInstead:
         return spline if stays and spline.n_stored <= run.n_stored + run.n_turns else None
 
 
-def _any_straight(pieces: tuple[Piece, ...], problem: Problem) -> bool:
-    """Whether one of some pieces was drawn as a line."""
-    return any(drawn_straight(piece, problem.drawn, problem.tolerance) for piece in pieces)
+def _any_straight(run: Run, problem: Problem) -> bool:
+    """Whether a piece of a run was drawn as a line; of a picture's points few are enough."""
+    longest = np.inf
+    if problem.contour.accuracy is not None:
+        longest = LONG_CHORD * median(np.hypot(*np.diff(run.points, axis=0).T))
+    for piece in run.pieces:
+        side = piece.control_points[-1] - piece.control_points[0]
+        is_long = piece.degree == 1 and np.hypot(*side) > longest
+        if is_long or drawn_straight(piece, problem.drawn, problem.tolerance):
+            return True
+    return False
 
 
 def _angle(u: FloatArray, v: FloatArray) -> float:
