@@ -134,8 +134,10 @@ def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[S
         return
     if _one_spline_may_be_better(problem, in_pieces):
         best = shortlist.best
-        most = best.fit.n_stored_points + len(best.fit.corners)
-        yield OneSpline(most if best.kept else inf)
+        most = best.fit.n_stored_points if best.kept else inf
+        # One without corners may be preferred to one with more runs.
+        spares = len(best.fit.corners) if best.candidate.rank == SMOOTHED else 0
+        yield OneSpline(most + spares)
 
 
 def plan_pieces(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[Strategy]:
