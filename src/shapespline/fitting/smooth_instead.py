@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 # A spline leaves a corner in the direction that pieces had, but for this part of the corner's turn
 # and less than a corner: else it rounds it (PIE-30).
-SAME_PART, SAME_TURN = 0.25, np.radians(25.0)
+SAME_PART, SAME_TURN = 1 / 3, np.radians(25.0)
 # So much of an outline must be in runs that are not rough (PIE-30).
 EVEN_SHARE = 0.5
 # What is longer than so many steps of a picture's points was drawn as a line (PIE-30).
