@@ -13,7 +13,7 @@ from shapespline.fitting.piece_runs import runs_of
 from shapespline.fitting.smooth import as_piece, one_spline
 from shapespline.fitting.strategies import SMOOTHED, OneSpline
 from shapespline.fitting.verify import Candidate
-from shapespline.geometry import chords, hooks, joined
+from shapespline.geometry import chords_for_hooks, hooks, joined
 from shapespline.validation import median
 from shapespline.values import Contour
 
@@ -33,8 +33,6 @@ SAME_PART, SAME_TURN = 1 / 3, np.radians(25.0)
 EVEN_SHARE = 0.5
 # What is longer than so many steps of a picture's points was drawn as a line (PIE-30).
 LONG_CHORD = 3.0
-# Hooks are looked for by chords within this part of the tolerance.
-SAMPLING_PART = 0.02
 
 
 @dataclass(frozen=True)
@@ -117,5 +115,5 @@ def _angle(u: FloatArray, v: FloatArray) -> float:
 
 def _has_hooks(curve: BSplineCurve, problem: Problem) -> bool:
     """Whether a curve turns back where the data do not."""
-    line, polyline = chords(curve, SAMPLING_PART * problem.tolerance)[0], problem.contour.polyline
-    return len(hooks(line, polyline, problem.tolerance)) > 0
+    line = chords_for_hooks(curve, problem.tolerance)
+    return len(hooks(line, problem.contour.polyline, problem.tolerance)) > 0

@@ -13,7 +13,7 @@ from shapespline.geometry.distances import (
 )
 from shapespline.geometry.exact import Outlines, exact_drawing, exact_fit
 from shapespline.geometry.flattening import chords, sampled
-from shapespline.geometry.hooks import hooks
+from shapespline.geometry.hooks import chords_for_hooks, hooks
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
 from shapespline.geometry.joining import elevated, joined, turn_between
 from shapespline.geometry.lines_and_arcs import bulge_piece, bulged, lines_and_arcs
@@ -52,6 +52,7 @@ __all__ = [
     "bulge_piece",
     "bulged",
     "chords",
+    "chords_for_hooks",
     "compare",
     "confidence_band",
     "containing",

@@ -7,12 +7,30 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.geometry.flattening import chords
 
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray
+    from shapespline.values import BSplineCurve
+
+# A curve is looked at by chords within this part of the tolerance.
+SAMPLING_PART = 0.02
 
 
-def hooks(chords: FloatArray, polyline: FloatArray, tolerance: float) -> FloatArray:
+def chords_for_hooks(curve: BSplineCurve, tolerance: float) -> FloatArray:
+    """A curve as the polyline that `hooks` looks at, shape (k, 2).
+
+    Examples
+    --------
+    >>> from shapespline.values import BSplineCurve
+    >>> line = BSplineCurve([0, 0, 1, 1], [(0, 0), (2, 0)], degree=1)
+    >>> chords_for_hooks(line, 0.1)[[0, -1]].tolist()
+    [[0.0, 0.0], [2.0, 0.0]]
+    """
+    return chords(curve, SAMPLING_PART * tolerance)[0]
+
+
+def hooks(line: FloatArray, polyline: FloatArray, tolerance: float) -> FloatArray:
     """Places where a curve turns back and the data beside it do not, shape (k, 2).
 
     A hook turns by more than 90 degrees within one tolerance of the curve's length, while the data
@@ -21,8 +39,9 @@ def hooks(chords: FloatArray, polyline: FloatArray, tolerance: float) -> FloatAr
 
     Parameters
     ----------
-    chords : (k, 2) array
-        The curve as a polyline; it is looked at across its seam if it ends where it begins.
+    line : (k, 2) array
+        The curve as a polyline (`chords_for_hooks`); it is looked at across its seam if it ends
+        where it begins.
     polyline : (n, 2) array
         The data, closed if they end where they begin.
     tolerance : float
@@ -34,7 +53,7 @@ def hooks(chords: FloatArray, polyline: FloatArray, tolerance: float) -> FloatAr
     >>> hooks(np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 0.1), (4.9, 0.1)]), data, 1.0).tolist()
     [[5.0, 0.05]]
     """
-    if len(polyline) < 2 or len(chords) < 2:
+    if len(polyline) < 2 or len(line) < 2:
         return np.empty((0, 2))
-    chords, polyline = (np.ascontiguousarray(rows, dtype=np.float64) for rows in (chords, polyline))
-    return np.array(_kernels.hook_places(chords, polyline, tolerance)).reshape(-1, 2)
+    line, polyline = (np.ascontiguousarray(rows, dtype=np.float64) for rows in (line, polyline))
+    return np.array(_kernels.hook_places(line, polyline, tolerance)).reshape(-1, 2)

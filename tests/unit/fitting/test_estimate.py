@@ -182,27 +182,24 @@ def test_lines_and_arcs_are_no_better_for_a_noisy_ellipse_than_a_curve():
     assert sum(any(piece.arc is not None for piece in fit.pieces) for fit in fits) <= 2
 
 
-def test_a_noisy_square_with_round_corners_is_no_circle():
-    quarter = np.linspace(0, np.pi / 2, 200)
+def round_cornered(n):
+    """A square of four with round corners of a quarter of its side."""
+    quarter = np.linspace(0, np.pi / 2, 2000, endpoint=False)
     arcs = [
         np.column_stack([x + np.cos(quarter + a), y + np.sin(quarter + a)])
         for x, y, a in ((1, 1, 0), (-1, 1, np.pi / 2), (-1, -1, np.pi), (1, -1, 1.5 * np.pi))
     ]
-    square = Contour(np.concatenate(arcs), closed=True).resampled(100)
+    return Contour(np.concatenate(arcs), closed=True).resampled(n)
+
+
+def test_a_noisy_square_with_round_corners_is_no_circle():
     for seed in range(3):
-        assert fit_curve(shaken(square, 2.0, seed)).n_stored_points > 2
+        assert fit_curve(shaken(round_cornered(100), 2.0, seed)).n_stored_points > 2
 
 
 def test_noisy_round_corners_are_fillets_all_alike():
     # An octagon, as chance preferred two of its eight chamfers (DRA-28).
-    t = np.linspace(0, np.pi / 2, 2000, endpoint=False)
-    inner = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
-    arcs = [
-        at + np.column_stack([np.cos(t + k * np.pi / 2), np.sin(t + k * np.pi / 2)])
-        for k, at in enumerate(inner)
-    ]
-    square = Contour(np.concatenate(arcs), closed=True).resampled(500)
-    fit = fit_curve(shaken(square, 2.0, 1))
+    fit = fit_curve(shaken(round_cornered(500), 2.0, 1))
     assert sorted(piece.kind for piece in fit.pieces) == 4 * ["arc"] + 4 * ["line"]
     assert not len(fit.corners)
 

@@ -23,7 +23,7 @@ from shapespline.fitting.repair.refit import (
     windows_around,
 )
 from shapespline.fitting.verify import verified_anew
-from shapespline.geometry import chords, hooks
+from shapespline.geometry import chords_for_hooks, hooks
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,9 +39,8 @@ WHOLE, MOST_POINTS = (0.97, 0.9, 0.65, 0.35), 300
 # Windows that take more than so many times the points before compete with everything fitted again,
 # within no less than this part (FIT-29).
 CHEAP, CLOSEST_FOR_FEWER = 1.03, 0.9
-# A curve is looked at by chords within this part of its tolerance; pieces this near to a hook, in
-# tolerances, are fitted again.
-SAMPLING_PART, ABOUT = 0.02, 0.5
+# Pieces this near to a hook, in tolerances, are fitted again.
+ABOUT = 0.5
 TURNS_BACK = "it turns back where the data do not"
 
 
@@ -78,7 +77,7 @@ def _hooks_of(fit: Fit, request: Request) -> FloatArray:
 
     In canonical order: where a hook is in a turn must not depend on the direction of the data.
     """
-    reading, line = Reading.of(fit.contour), chords(fit.spline, SAMPLING_PART * fit.tolerance)[0]
+    reading, line = Reading.of(fit.contour), chords_for_hooks(fit.spline, fit.tolerance)
     way = -1 if reading.is_backwards else 1
     places = hooks(line[::way], reading.contour(fit.contour).polyline, fit.tolerance)
     for wanted, end in zip(request.constraints.tangents, line[[0, -1]], strict=True):
