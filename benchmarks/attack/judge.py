@@ -33,6 +33,7 @@ FAULTS = (
     "not kept",
     "unsaid crossing",
     "index",
+    "end",
     "tangent",
     "tck end",
     "start",
@@ -140,6 +141,10 @@ def _constraints(fit: ss.Fit, points: Array, options: dict[str, Any]) -> set[str
     ends = [piece.control_points[[0, -1]] for piece in fit.pieces]
     nodes = np.concatenate(ends)
     slack = ROUNDING * float(np.abs(points).max())  # points a rounding apart are one
+    if not fit.contour.closed:
+        away = np.hypot(*(nodes[[0, -1]] - fit.contour.points[[0, -1]]).T).max()
+        if away > (0 if options.get("ends") == "fixed" else options["tolerance"]) + slack:
+            found.add("end")
     for at in options.get("through", []):
         if np.abs(nodes - points[at]).max(axis=1).min() > slack:
             found.add("index")

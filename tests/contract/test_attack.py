@@ -68,8 +68,13 @@ def test_the_judge_sees_what_is_wrong(monkeypatch):
     def of_the_first_point(points, **given):
         return fit(points * (1 + 1e-3 * (points[0, 0] > 0.5)), **given)
 
+    def from_its_end(points, **given):
+        half = points[: len(points) // 2]
+        return replace(fit(half[::-1], **given), contour=ss.Contour(half, False))
+
     for wrong, fault, more in (
         (refused, "error", {}),
+        (from_its_end, "end", {"closed": False}),
         (by_no_index, "index", {"through": [3]}),
         (moved, "promise", {}),
         (of_the_first_point, "start", {}),

@@ -7,7 +7,8 @@ import pytest
 from tests.support.shapes import flower
 
 import checks
-from shapespline.geometry import hooks
+from shapespline.geometry import chords_for_hooks, hooks
+from shapespline.values import BSplineCurve
 
 STRAIGHT = np.array([(0.0, 0.0), (10.0, 0.0)])
 
@@ -18,6 +19,18 @@ def test_a_turn_is_a_hook_beyond_a_right_angle(degrees, tolerance):
     angle = np.radians(degrees)
     way = np.array([(0.0, 0.0), (5.0, 0.0), (5.0 + np.cos(angle), np.sin(angle))])
     assert len(hooks(way, STRAIGHT, tolerance)) == (degrees > 90)
+
+
+@pytest.mark.parametrize("degrees", [88, 96, 110])
+def test_a_bend_is_one_however_long_the_curve_is(degrees):
+    # Chords that go by the distance from the curve alone are few where a long curve bends.
+    half = np.radians(degrees / 2)
+    before, after = -np.array([np.cos(half), np.sin(half)]), np.array([np.cos(half), -np.sin(half)])
+    control = [200 * before, 100 * before, 0.7 * before, (0, 0)]
+    control += [0.7 * after, 100 * after, 200 * after]
+    bent = BSplineCurve([0, 0, 0, 1, 1, 2, 2, 3, 3, 3], control, degree=2)
+    data = np.array([(-900.0, 0.0), (900.0, 0.0)])
+    assert len(hooks(chords_for_hooks(bent, 1.0), data, 1.0)) == (degrees > 90)
 
 
 def test_a_turn_with_the_data_is_none():

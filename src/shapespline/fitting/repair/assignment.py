@@ -100,7 +100,7 @@ def pieces_of(fit: Fit) -> tuple[Piece, ...]:
     if fit.sections:
         return fit.sections
     spline = fit.spline
-    if not fit.closed:
+    if not fit.contour.closed:
         kind = "bezier" if len(spline.control_points) == fit.degree + 1 else "spline"
         return (Piece(kind, fit.degree, spline.knots, spline.control_points),)
     knots = np.repeat([0.0, 1.0], fit.degree + 1)

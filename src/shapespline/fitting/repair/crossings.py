@@ -281,7 +281,7 @@ def _fitted_again(
     row: PieceAssignment, found: Sequence[int], step: Step, sides: Sides, refit: Refit
 ) -> PieceAssignment:
     """The row with the parts that cross, and so many beside them, fitted again."""
-    if row.fit.closed and step.beside:
+    if row.fit.contour.closed and step.beside:
         row, found = turned_apart(row, found)
     within = step.within * row.fit.tolerance
 

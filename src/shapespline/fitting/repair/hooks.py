@@ -111,7 +111,7 @@ def _windows_again(fit: Fit, request: Request, ask: Callable[[Request], Fit]) ->
         found = _hooked_parts(row)
         if not found:
             break
-        if fit.closed and beside:
+        if fit.contour.closed and beside:
             row, found = turned_apart(row, found)
         windows = [
             Window(begin, end, part * fit.tolerance)

@@ -118,7 +118,7 @@ def _window_again(
     begin, beyond = first[:1], _beyond(data.points, first[0], within)
     end, before_last = last[-1:], _beyond(data.points[::-1], last[-1], within)
     # A free end goes with its points: held beside them it would be a hook.
-    if not row.fit.closed and not refit.holds_ends and len(points):
+    if not row.fit.contour.closed and not refit.holds_ends and len(points):
         if window.begin == 0:
             begin, beyond = points[:0], 0
         if window.end == len(row.parts):
@@ -155,7 +155,7 @@ def _beyond(points: FloatArray, node: FloatArray, within: float) -> int:
 
 def _tangents(row: PieceAssignment, window: Window) -> Tangents:
     """The tangents at the outer nodes of a window, where its neighbours go on smoothly."""
-    pieces, closed = [part.piece for part in row.parts], row.fit.closed
+    pieces, closed = [part.piece for part in row.parts], row.fit.contour.closed
     begin, end = window.begin, window.end
     tangents: list[FloatArray | None] = [None, None]
     if (begin > 0 or closed) and abs(turn_between(pieces[begin - 1], pieces[begin])) < SMOOTH_TURN:

@@ -158,7 +158,7 @@ def _closer(fit: Fit, limits: Limits, refit: Refit, few: int) -> PieceAssignment
         missed, found = _missed(row, limits)
         if not found:
             break
-        if fit.closed and beside:
+        if fit.contour.closed and beside:
             row, _ = turned_apart(row, found)
             missed, found = _missed(row, limits)
         windows = [

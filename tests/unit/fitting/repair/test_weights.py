@@ -124,3 +124,21 @@ def test_few_points_of_a_great_weight_are_gone_through():
     assert fit.kept
     assert distances(fit)[at].max() <= 1e-9 * TOLERANCE
     assert fit.n_stored_points <= 2 * through.n_stored_points
+
+
+@pytest.mark.parametrize("at", [(113, 122), (160, 192), (30, 31)])
+@pytest.mark.parametrize("degree", [2, 3])
+def test_a_stroke_drawn_there_and_back_begins_where_it_did(at, degree):
+    # An open row whose ends coincide is not a closed outline: its first point stays the first.
+    x = np.linspace(0, 10, 120)
+    there = np.column_stack([x, np.sin(3 * x) + 0.4 * np.cos(7 * x)])
+    stroke = np.concatenate([there, there[-2::-1]])
+    weights = np.ones(len(stroke))
+    weights[list(at)] = 5.0
+    fit = ss.fit_curve(stroke, closed=False, tolerance=0.3, weights=weights, degree=degree)
+    assert fit.kept
+    assert not fit.contour.closed
+    ends = fit.spline.beziers().points[[0, -1], [0, -1]]
+    assert np.hypot(*(ends - stroke[[0, -1]]).T).max() <= 0.3
+    heavy_ones = np.sqrt(nearest(fit.spline, stroke[list(at)]).distances_sq)
+    assert heavy_ones.max() <= 0.3 / 5
