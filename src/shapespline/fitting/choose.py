@@ -99,9 +99,9 @@ class Shortlist:
     @staticmethod
     def _spares_corners(smooth: Verified, other: Verified) -> bool:
         """Whether one spline a run, or one for all, stands for what turns where it need not."""
-        ranks, n_corners = (smooth.candidate.rank, other.candidate.rank), len(other.fit.corners)
+        ranks = (smooth.candidate.rank, other.candidate.rank)
         if ranks == (SMOOTHED, PIECES):  # which was asked what it may cost
             return smooth.kept
-        is_fair = smooth.kept and smooth.fair and not smooth.waves
-        no_dearer = smooth.fit.n_stored_points <= other.fit.n_stored_points + n_corners
-        return ranks == (ONE_SPLINE, SMOOTHED) and is_fair and no_dearer
+        if ranks != (ONE_SPLINE, SMOOTHED) or not (smooth.kept and smooth.fair) or smooth.waves:
+            return False
+        return smooth.fit.n_stored_points <= other.fit.n_stored_points + len(other.fit.corners)

@@ -84,8 +84,8 @@ def fit_curve(
         their place that are a hundredth of the tolerance from them, which the distances count).
     ends : {"free", "fixed"}
         Of an open curve: "fixed" begins and ends in the first and last point, exactly. Pieces
-        whose ends are free may need fewer points; one spline always has fixed ends, but where it
-        is estimated from noisy points and they are free.
+        whose ends are free, within the tolerance of these points, may take fewer; one spline always
+        has fixed ends, but where it is estimated from noisy points and they are free.
     end_tangents : pair of array_like, shape (2,), or None, optional
         Directions (x, y) in which an open curve begins and ends, exactly; None where that is free.
         Its ends are fixed then. Within a tolerance, in pieces.

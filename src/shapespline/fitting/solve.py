@@ -11,6 +11,8 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from shapespline.fitting.choose import Shortlist
 from shapespline.fitting.plan import plan
 from shapespline.fitting.problem import Problem
@@ -75,8 +77,25 @@ def _repaired(request: Request, monitor: Monitor) -> Fit:
 
 
 def answer(request: Request, monitor: Monitor) -> Fit:
-    """The fit of a request or a sub-request by the plan alone, nothing repaired."""
-    return finished(search(Problem(request), monitor), monitor)
+    """The fit of a request or a sub-request by the plan alone, nothing repaired.
+
+    With its ends held where free ones stray: both distances allow an end of the curve to be more
+    than the tolerance from that of the data, if it is beside them and they pass beside it (FIT-32).
+    """
+    fit = finished(search(Problem(request), monitor), monitor)
+    if monitor.ended or not _end_strays(fit, request):
+        return fit
+    held = replace(request, constraints=request.constraints._replace(ends=True))
+    found = finished(search(Problem(held), monitor), monitor)
+    return found if found.kept else fit
+
+
+def _end_strays(fit: Fit, request: Request) -> bool:
+    """Whether a free end of a curve is farther than the tolerance from that of open data."""
+    if request.tolerance is None or request.contour.closed or request.constraints.ends:
+        return False
+    away = fit.control_points[[0, -1]] - request.contour.points[[0, -1]]
+    return bool((np.hypot(away[:, 0], away[:, 1]) > request.tolerance).any())
 
 
 def search(problem: Problem, monitor: Monitor) -> Verified:

@@ -173,13 +173,13 @@ class Fit(ByValue, Shown, Exchanged, FitMethods):
         """Degree of ``curve``."""
         return self.spline.degree
 
-    @property
+    @cached_property
     def closed(self) -> bool:
         """Whether the curve ends where it begins."""
         ends = self.control_points[[0, -1]]
         return self.spline.periodic or bool((ends[0] == ends[1]).all())
 
-    @property
+    @cached_property
     def corners(self) -> FloatArray:
         """Parameters where the curve turns by more than a degree, shape (c,)."""
         pieces, breakpoints = self.spline.beziers()
@@ -190,7 +190,9 @@ class Fit(ByValue, Shown, Exchanged, FitMethods):
             before, leaving, at = arriving[:-1], leaving[1:], breakpoints[1:-1]
         turn = before[:, 0] * leaving[:, 1] - before[:, 1] * leaving[:, 0]
         along = (before * leaving).sum(axis=1)
-        return at[np.abs(np.arctan2(turn, along)) > CORNER_TURN]
+        corners = at[np.abs(np.arctan2(turn, along)) > CORNER_TURN]
+        corners.setflags(write=False)
+        return corners
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
@@ -219,7 +221,7 @@ class Fit(ByValue, Shown, Exchanged, FitMethods):
             for piece in self.sections
         ]
 
-    @property
+    @cached_property
     def n_stored_points(self) -> int:
         """Distinct points that a file of the pieces stores.
 

@@ -58,6 +58,15 @@ def test_free_ends_are_free():
     assert (fit.control_points[[0, -1]] != points[[0, -1]]).any()
 
 
+@pytest.mark.parametrize("seed", [1, 4, 10, 12])
+def test_free_ends_stay_near_those_of_the_data(seed):
+    # Rough for its tolerance: what is beside the first point may be near a later one, too.
+    walk = np.cumsum(np.random.default_rng(seed).normal(0, 1, (40, 2)), axis=0)
+    fit = fit_curve(walk, closed=False, tolerance=0.8)
+    assert fit.kept
+    assert np.hypot(*(fit.control_points[[0, -1]] - walk[[0, -1]]).T).max() <= 0.8
+
+
 def test_a_closed_curve_has_no_ends():
     contour = flower(200)
     free, fixed = (fit_curve(contour, tolerance=0.1, ends=ends) for ends in ("free", "fixed"))
