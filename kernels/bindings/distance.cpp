@@ -77,14 +77,15 @@ void bind_distance(nb::module_ &m) {
 
     m.def(
         "hook_places",
-        [](In2 vertices, In2 polyline, double tolerance) {
+        [](In2 vertices, In2 polyline, double tolerance, bool closed) {
             std::vector<std::pair<double, double>> places;
             nb::gil_scoped_release release;
-            const auto found = ss::hook_places(vectors(vertices), vectors(polyline), tolerance);
+            const auto found = ss::hook_places(vectors(vertices), vectors(polyline), tolerance,
+                                                 closed);
             for (const ss::Vec2 p : found) places.emplace_back(p.x, p.y);
             return places;
         },
-        "vertices"_a.noconvert(), "polyline"_a.noconvert(), "tolerance"_a);
+        "vertices"_a.noconvert(), "polyline"_a.noconvert(), "tolerance"_a, "closed"_a);
 
     m.def(
         "crossing_pairs",

@@ -74,11 +74,11 @@ TEST(the_way_round_a_closed_outline_is_the_shorter_one) {
 TEST(a_hook_is_where_the_curve_turns_back_and_the_data_do_not) {
     const std::vector<Vec2> data{{0, 0}, {10, 0}};
     const std::vector<Vec2> hooked{{0, 0}, {5, 0}, {4.6, 0.1}, {10, 0}};
-    const auto places = hook_places(hooked, data, 1.0);
+    const auto places = hook_places(hooked, data, 1.0, false);
     CHECK(places.size() == 2);  // at both ends of the way back
     for (const Vec2 place : places) CHECK(norm(place - Vec2{4.8, 0.05}) <= 0.5);
     // Beside data that turn so it is theirs.
-    CHECK(hook_places(hooked, hooked, 1.0).empty());
+    CHECK(hook_places(hooked, hooked, 1.0, false).empty());
 }
 
 TEST(a_turn_over_more_than_a_tolerance_of_length_is_none) {
@@ -87,9 +87,9 @@ TEST(a_turn_over_more_than_a_tolerance_of_length_is_none) {
         turned.push_back({5 + 0.3 * std::sin(i * M_PI / 16), 0.3 + 0.3 * std::cos(i * M_PI / 16)});
     turned.push_back({0, 0});
     const std::vector<Vec2> data{{0, 0.3}, {10, 0.3}};
-    CHECK(hook_places(turned, data, 1.0).size() == 1);
+    CHECK(hook_places(turned, data, 1.0, false).size() == 1);
     // A quarter of the circle is 0.47 long.
-    CHECK(hook_places(turned, data, 0.4).empty());
+    CHECK(hook_places(turned, data, 0.4, false).empty());
 }
 
 TEST(a_hook_at_the_seam_of_a_closed_curve_is_found) {
@@ -98,11 +98,11 @@ TEST(a_hook_at_the_seam_of_a_closed_curve_is_found) {
         ring.push_back({10.0 * std::cos(i * M_PI / 32), 10.0 * std::sin(i * M_PI / 32)});
     std::vector<Vec2> hooked = ring;
     ring.push_back(ring.front());
-    CHECK(hook_places(ring, ring, 1.0).empty());
+    CHECK(hook_places(ring, ring, 1.0, true).empty());
     // The last chord runs 0.3 past the seam and comes back to it.
     hooked.push_back({10.05, 0.3});
     hooked.push_back(hooked.front());
-    const auto places = hook_places(hooked, ring, 1.0);
+    const auto places = hook_places(hooked, ring, 1.0, true);
     CHECK(!places.empty());
     for (const Vec2 place : places) CHECK(norm(place - hooked.front()) <= 1.0);
 }

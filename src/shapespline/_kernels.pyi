@@ -301,7 +301,7 @@ def count_crossings(vertices: FloatArray) -> int: ...  # (k, 2), an open polylin
 
 # Of a curve by its chords (k, 2) beside a polyline (n, 2), n > 1.
 def hook_places(
-    vertices: FloatArray, polyline: FloatArray, tolerance: float
+    vertices: FloatArray, polyline: FloatArray, tolerance: float, closed: bool
 ) -> list[tuple[float, float]]: ...
 
 # Polyline i has the vertices from starts[i] up to starts[i + 1].

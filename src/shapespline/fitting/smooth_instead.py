@@ -116,4 +116,5 @@ def _angle(u: FloatArray, v: FloatArray) -> float:
 def _has_hooks(curve: BSplineCurve, problem: Problem) -> bool:
     """Whether a curve turns back where the data do not."""
     line = chords_for_hooks(curve, problem.tolerance)
-    return len(hooks(line, problem.contour.polyline, problem.tolerance)) > 0
+    data = problem.contour
+    return len(hooks(line, data.polyline, problem.tolerance, closed=data.closed)) > 0

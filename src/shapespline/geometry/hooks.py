@@ -32,7 +32,9 @@ def chords_for_hooks(curve: BSplineCurve, tolerance: float) -> FloatArray:
     return chords(curve, SAMPLING_PART * tolerance)[0]
 
 
-def hooks(line: FloatArray, polyline: FloatArray, tolerance: float) -> FloatArray:
+def hooks(
+    line: FloatArray, polyline: FloatArray, tolerance: float, *, closed: bool = False
+) -> FloatArray:
     """Places where a curve turns back and the data beside it do not, shape (k, 2).
 
     A hook turns by more than 90 degrees within one tolerance of the curve's length, while the data
@@ -42,12 +44,14 @@ def hooks(line: FloatArray, polyline: FloatArray, tolerance: float) -> FloatArra
     Parameters
     ----------
     line : (k, 2) array
-        The curve as a polyline (`chords_for_hooks`); it is looked at across its seam if it ends
-        where it begins.
+        The curve as a polyline (`chords_for_hooks`).
     polyline : (n, 2) array
-        The data, closed if they end where they begin.
+        The data.
     tolerance : float
         The length that both are measured by.
+    closed : bool
+        Whether the data are closed: then what ends where it begins goes on there. A stroke that
+        ends where it began does not.
 
     Examples
     --------
@@ -58,4 +62,4 @@ def hooks(line: FloatArray, polyline: FloatArray, tolerance: float) -> FloatArra
     if len(polyline) < 2 or len(line) < 2:
         return np.empty((0, 2))
     line, polyline = (np.ascontiguousarray(rows, dtype=np.float64) for rows in (line, polyline))
-    return np.array(_kernels.hook_places(line, polyline, tolerance)).reshape(-1, 2)
+    return np.array(_kernels.hook_places(line, polyline, tolerance, closed)).reshape(-1, 2)

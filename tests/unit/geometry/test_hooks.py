@@ -55,7 +55,7 @@ def test_as_many_as_the_outside_check_finds(at, folded):
     knots = np.concatenate([[0], np.arange(len(way)), [len(way) - 1]])
     seen = checks.hooks((knots, way, 1), flower(300).points, closed=True, tolerance=tolerance)
     assert bool(len(seen)) == folded
-    assert bool(len(hooks(way, data, tolerance))) == folded
+    assert bool(len(hooks(way, data, tolerance, closed=True))) == folded
 
 
 def test_where_data_pass_twice_the_pass_that_turns_counts():
@@ -72,7 +72,15 @@ def test_a_hook_at_the_seam_of_a_closed_curve():
     ahead = (ring[1] - ring[0]) / np.hypot(*(ring[1] - ring[0]))
     spur = ring[0] - 0.4 * tolerance * ahead
     way = np.concatenate([[spur], ring[:-1], [spur + 0.1 * tolerance * ahead, spur]])
-    assert len(hooks(ring, ring, tolerance)) == 0
-    places = hooks(way, ring, tolerance)
+    assert len(hooks(ring, ring, tolerance, closed=True)) == 0
+    places = hooks(way, ring, tolerance, closed=True)
     assert len(places) > 0
     assert np.hypot(*(places - ring[0]).T).max() < tolerance
+
+
+def test_a_stroke_that_ends_where_it_began_has_no_seam():
+    # Its ends meet at an angle, which excuses no hook beside its first point.
+    stroke = np.array([(0.0, 0.0), (9.0, 0.0), (9.0, 0.4), (0.0, 0.0)])
+    way = np.concatenate([[(0.0, 0.0), (0.5, 0.1), (0.3, 0.1)], stroke[1:]])
+    assert len(hooks(way, stroke, 1.0)) > 0
+    assert len(hooks(way, stroke, 1.0, closed=True)) == 0

@@ -172,3 +172,13 @@ def test_points_of_an_uneven_curve_lie_on_it():
     curve = random_curve(np.random.default_rng(0), 5, 8, multiple=False)
     points = curve(np.linspace(0, 1, 200))
     assert np.sqrt(nearest(curve, points).distances_sq).max() < 1e-12
+
+
+@pytest.mark.parametrize("step", [1, -1])
+def test_a_piece_that_turns_back_beside_its_end_has_no_foot_there_alone(step):
+    # Whoever came from the points before began at the end, a minimum of its own, and stayed there.
+    turned = [(-7e-5, -4e-5), (-5.6e-4, 6e-5), (2.354, -3e-5)]
+    curve = BSplineCurve([0, 0, 0, 1, 1, 1], turned, degree=2)
+    x = np.linspace(0, 2.3, 20)[::step]
+    found = nearest(curve, np.column_stack([x, 0 * x]))
+    assert np.sqrt(found.distances_sq.max()) < 1e-4

@@ -169,12 +169,12 @@ class TurningSteps {
 };
 
 // Where hooks are of a curve, given by its chords, beside a data polyline. Where data pass several
-// times within a tolerance the pass that turns most counts: the curve may stand for it. A closed
-// curve is looked at across its seam, where a hook may be named twice.
+// times within a tolerance the pass that turns most counts: the curve may stand for it. Of closed
+// data, what ends where it begins is looked at across its seam, where a hook may be named twice.
 inline std::vector<Vec2> hook_places(std::span<const Vec2> chords, std::span<const Vec2> polyline,
-                                     double tolerance) {
-    const auto is_closed = [](std::span<const Vec2> line) {
-        return line.front().x == line.back().x && line.front().y == line.back().y;
+                                     double tolerance, bool closed_data) {
+    const auto is_closed = [&](std::span<const Vec2> line) {
+        return closed_data && line.front().x == line.back().x && line.front().y == line.back().y;
     };
     TurningSteps turning(tolerance);
     for (std::size_t i = 0; i + 1 < chords.size(); ++i)

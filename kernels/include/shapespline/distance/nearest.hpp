@@ -57,6 +57,7 @@ class CurveSearch {
         };
         for (std::size_t j = 0; j < queries.size(); ++j) {
             Nearest best = nearest_on_piece(queries[j], run.piece, run.ahead);
+            if (!best.inside) best = with_foot_on_chord(queries[j], best);
             if (best.inside) {
                 if (run.n == 0) run.start(j);
                 run.add(queries[j], best);
@@ -103,6 +104,13 @@ class CurveSearch {
             before = ahead = last.local_parameter;
         }
     };
+
+    // An end of a piece that turns back beside it, as at a near-cusp, may be a minimum of its own:
+    // who comes from there does not find the foot that lies beyond.
+    Nearest with_foot_on_chord(Vec2 q, const Nearest &at_end) const {
+        const Nearest other = nearest_on_piece(q, at_end.piece, kUnknown);
+        return other.distance_sq < at_end.distance_sq ? other : at_end;
+    }
 
     void improve(Vec2 q, std::size_t piece, Nearest &best) const {
         if (piece == best.piece || boxes_[piece].distance_sq(q) >= best.distance_sq) return;

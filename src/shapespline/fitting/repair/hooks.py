@@ -79,7 +79,8 @@ def _hooks_of(fit: Fit, request: Request) -> FloatArray:
     """
     reading, line = Reading.of(fit.contour), chords_for_hooks(fit.spline, fit.tolerance)
     way = -1 if reading.is_backwards else 1
-    places = hooks(line[::way], reading.contour(fit.contour).polyline, fit.tolerance)
+    data = reading.contour(fit.contour)
+    places = hooks(line[::way], data.polyline, fit.tolerance, closed=data.closed)
     for wanted, end in zip(request.constraints.tangents, line[[0, -1]], strict=True):
         if wanted is not None:
             places = places[np.hypot(*(places - end).T) > fit.tolerance]
@@ -124,7 +125,8 @@ def _windows_again(fit: Fit, request: Request, ask: Callable[[Request], Fit]) ->
 def _hooked_parts(row: PieceAssignment) -> list[int]:
     """The parts of a row about its hooks."""
     tolerance = row.fit.tolerance
-    places = hooks(row.line, row.fit.contour.polyline, tolerance)
+    data = row.fit.contour
+    places = hooks(row.line, data.polyline, tolerance, closed=data.closed)
     near = (ABOUT * tolerance) ** 2
     return [
         k

@@ -145,7 +145,8 @@ def _hooks(row: PieceAssignment, window: Window, parts: tuple[AssignedPiece, ...
     chain = [*beside[0], *parts, *beside[1]]
     data = row.data.part(max(chain[0].begin - 1, 0), chain[-1].end + 1)
     line = np.concatenate([part.line for part in chain])
-    return len(hooks(line, data.points, row.fit.tolerance))
+    closed = row.fit.contour.closed
+    return len(hooks(line, data.points, row.fit.tolerance, closed=closed))
 
 
 def _beyond(points: FloatArray, node: FloatArray, within: float) -> int:
