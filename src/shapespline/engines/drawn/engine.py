@@ -65,6 +65,9 @@ MANY_ELEMENTS, POINTS_EACH, MOST_WRONG = 40, 5, 30
 # Where lines and arcs alone are left, two of them and that part of all are enough (DRA-22).
 ROUGH, ROUGHEST, SAVED, LONG = 3.0, 0.5, 0.03, 25.0
 LEAST_SAVED, SAVED_PART = 6.0, 0.1
+# What such a telling holds in part only gives way to the exact one, unless that is so many times
+# longer, as chords of curves are (DRA-29).
+CHORDS = 1.33
 # Measured points are shared anew so often, and an element keeps so many of them (DRA-25).
 SHARINGS, LEAST_SHARED = 3, 3
 # Data within so many steps of a node tell its direction.
@@ -110,8 +113,8 @@ def as_drawn(
         if whole is not None:
             return Drawn((whole,), (), is_told=True, n_unknowns=3)
     ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
-    for one, row in _readings(seen, tolerance):
-        found = _of_row(one, row, ends, regularities, tolerance)
+    for one, row, as_whole in _readings(seen, tolerance):
+        found = _of_row(one, row, ends, regularities, tolerance, whole=as_whole)
         if found is not None:
             return found
     return None
@@ -123,8 +126,13 @@ def _of_row(
     ends: FloatArray | None,
     regularities: Collection[str],
     tolerance: float,
+    *,
+    whole: bool,
 ) -> Drawn | None:
-    """Lines, arcs and free-form runs of segments; None if these are none that were drawn."""
+    """Lines, arcs and free-form runs of segments; None if these are none that were drawn.
+
+    ``whole`` takes them only if none of them is contradicted by its points.
+    """
     row = supported(row, seen.closed)
     if len(row.found) > max(MANY_ELEMENTS, len(seen.points) / POINTS_EACH):
         return None
@@ -138,13 +146,15 @@ def _of_row(
     for filleted in () if seen.pixel else _filleted(model):
         other = _estimated(model, filleted, tolerance)
         if other is not None:
-            whole = other.model.row is filleted
-            best = other if best is None or (whole and other.cost < best.cost) else best
+            as_it_is = other.model.row is filleted
+            best = other if best is None or (as_it_is and other.cost < best.cost) else best
     if best is not None and (row := _shared_anew(best.model).row) is not best.model.row:
         other = _estimated(model, row, tolerance)
         if other is not None and other.model.row is row and other.cost < best.cost:
             best = other
     if best is None or not (best.told or is_short(best.model)):
+        return None
+    if whole and best.model.row is not model.row:
         return None
     model, found, told = best.model, best.found, best.told
     if set(regularities) != set(NAMES):
@@ -241,25 +251,31 @@ def _rough(seen: Observed, tolerance: float) -> Observed | None:
     return seen.rougher(ROUGH) if ROUND * ROUGH * seen.largest_deviation <= room else None
 
 
-def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segments]]:
+def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segments, bool]]:
     """The outline as its picture shows it, or less exact where that is much shorter to tell.
 
-    What tells no drawing may do so if it is taken for less exact: its elements are estimated anew
-    with larger errors, then looked for with these, then with errors that are slow, too.
+    What is a little shorter counts if it holds as a whole: lines through a bend are, too. What
+    tells no drawing may do so if it is taken for less exact: its elements are estimated anew with
+    larger errors, then looked for with these, then with errors that are slow, too.
     """
     row, rough = segmented(seen), _rough(seen, tolerance)
     if rough is None:
-        yield seen, row
+        yield seen, row, False
         return
     again = segmented(rough, row) if row.n_parameters(LONG * seen.pixel) >= LEAST_SAVED else row
-    if not _is_shorter(again, row, seen.pixel):
-        yield seen, row
+    if _is_shorter(again, row, seen.pixel):
+        long = LONG * seen.pixel
+        if row.n_parameters(long) <= CHORDS * again.n_parameters(long):
+            yield rough, again, True
+            yield seen, row, False
+    else:
+        yield seen, row, False
         if not is_enough(row):
             return
-        yield rough, row
-    yield rough, again
+        yield rough, row, False
+    yield rough, again, False
     slow = rough.slow()
-    yield slow, segmented(slow, row)
+    yield slow, segmented(slow, row), False
 
 
 def _is_shorter(again: Segments, row: Segments, pixel: float) -> bool:

@@ -19,6 +19,7 @@ from shapespline.engines.drawn.segments import ARC, FREE
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
     from shapespline.engines.drawn.segments import Segments
+    from shapespline.typing import FloatArray
     from shapespline.values import Regularity
 
 # An element whose points are off by more deviations in the mean, or at most, is none (DRA-06).
@@ -27,8 +28,8 @@ MEAN, LARGEST = 2.0, 6.0
 # (DRA-14).
 BIT_MEAN, BIT_LARGEST = 1.3, 3.0
 # Of an outline that was drawn lines and arcs make up this part, and keep so many regularities for
-# each, tangency counted half, and not beside free-form runs (DRA-08).
-LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH = 0.2, 0.65, 0.5
+# each, tangency counted half where free-form runs make up no more than a tenth, too (DRA-08).
+LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH, LITTLE_FREE = 0.2, 0.65, 0.5, 0.1
 # So few elements and nothing else may be what was drawn though they keep no regularities (DRA-17).
 FEW_ELEMENTS = 12
 # Between its nodes an element has at least this part of the length of its data.
@@ -43,6 +44,10 @@ BLUNT = np.radians(1.0), np.radians(4.0)
 # A node is no farther from its data than so many steps and deviations: lines that are nearly
 # parallel meet anywhere (DRA-06).
 NODE_STEPS, NODE_DEVIATIONS = 3.0, 20.0
+# A picture's corner that turns by less is where its data are, but for so many deviations and what
+# the pixel's box takes off: 0.4 pixel of a right angle (DRA-29).
+SHALLOW, CORNER_OFF = np.radians(60.0), 3.0
+BLUNTING = 0.4 / float(np.tan(np.pi / 8))
 
 
 def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> list[int]:
@@ -72,6 +77,10 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         # Blunted corners lie farther from their points the sharper they are.
         turn = turn_at(model, k, m, node)
         far = away / reach * float(np.cos(0.5 * turn)) ** 0.5
+        if model.seen.pixel and turn < SHALLOW:
+            blunted = BLUNTING * float(np.tan(0.25 * turn)) * model.seen.pixel
+            off = _off_line(np.concatenate(beside), node)
+            far = max(far, off / (CORNER_OFF * sigma + blunted))
         shorter = min(k, m, key=lambda one: data_length(model, one))
         if far > 1.0:
             bad.append((far, shorter))
@@ -86,6 +95,14 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         if far > 1.0:
             bad.append((far, k))
     return [max(bad)[1]] if bad else []
+
+
+def _off_line(points: FloatArray, node: FloatArray) -> float:
+    """How far a node is from the line through points in order."""
+    begins, vectors = points[:-1], np.diff(points, axis=0)
+    lengths_sq = np.maximum((vectors**2).sum(axis=1), np.finfo(float).tiny)
+    shares = np.clip(((node - begins) * vectors).sum(axis=1) / lengths_sq, 0.0, 1.0)
+    return float(np.hypot(*(begins + shares[:, None] * vectors - node).T).min())
 
 
 def without_few(model: Model) -> Segments | None:
@@ -120,9 +137,13 @@ def without_few(model: Model) -> Segments | None:
 
 def is_enough(row: Segments) -> bool:
     """Whether lines and arcs make up enough of an outline to be what was drawn."""
+    return any(kind != FREE for _, _, kind in row.found) and _share(row) >= LEAST_SHARE
+
+
+def _share(row: Segments) -> float:
+    """The part of an outline's length that lines and arcs make up."""
     s = row.stations
-    lengths = [float(s[j] - s[i]) for i, j, kind in row.found if kind != FREE]
-    return bool(lengths) and sum(lengths) >= LEAST_SHARE * float(s[-1])
+    return sum(float(s[j] - s[i]) for i, j, kind in row.found if kind != FREE) / float(s[-1])
 
 
 def is_short(model: Model) -> bool:
@@ -137,11 +158,12 @@ def repeated(model: Model, found: list[Regularity]) -> float:
     draw is level, parallel, equal or symmetric. Equal lengths often follow from that.
     """
     n, said = len(model.at), 0.0
+    by_touch = SAID_BY_TOUCH if _share(model.row) >= 1.0 - LITTLE_FREE else 0.0
     if len(model.row.found) == 1:  # one arc from end to end, as a whole circle
         return 1.0
     for one in found:
         if one.name in ("rotation", "mirror"):
             said += n * (1.0 - 1.0 / one.order)
         elif one.name != "equal-length":
-            said += 1.0 if one.name != "tangent" else SAID_BY_TOUCH * (n == len(model.row.found))
+            said += 1.0 if one.name != "tangent" else by_touch
     return said / n
