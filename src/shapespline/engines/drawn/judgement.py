@@ -18,6 +18,7 @@ from shapespline.engines.drawn.segments import ARC, FREE
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
+    from shapespline.engines.drawn.observed import Observed
     from shapespline.engines.drawn.segments import Segments
     from shapespline.typing import FloatArray
     from shapespline.values import Regularity
@@ -73,14 +74,8 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         if k not in model.at or m not in model.at:
             continue
         beside = [model.row.points[i : j + 1] for i, j, _ in (model.row.found[s] for s in (k, m))]
-        away = float(np.hypot(*(np.concatenate(beside) - node).T).min())
-        # Blunted corners lie farther from their points the sharper they are.
         turn = turn_at(model, k, m, node)
-        far = away / reach * float(np.cos(0.5 * turn)) ** 0.5
-        if model.seen.pixel and turn < SHALLOW:
-            blunted = BLUNTING * float(np.tan(0.25 * turn)) * model.seen.pixel
-            off = _off_line(np.concatenate(beside), node)
-            far = max(far, off / (CORNER_OFF * sigma + blunted))
+        far = _farness(model.seen, np.concatenate(beside), node, turn, reach)
         shorter = min(k, m, key=lambda one: data_length(model, one))
         if far > 1.0:
             bad.append((far, shorter))
@@ -95,6 +90,19 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         if far > 1.0:
             bad.append((far, k))
     return [max(bad)[1]] if bad else []
+
+
+def _farness(
+    seen: Observed, points: FloatArray, node: FloatArray, turn: float, reach: float
+) -> float:
+    """How far a node that turns so much is from the points beside it, of what it may be."""
+    # Blunted corners lie farther from their points the sharper they are.
+    away = float(np.hypot(*(points - node).T).min())
+    far = away / reach * float(np.cos(0.5 * turn)) ** 0.5
+    if not seen.pixel or turn >= SHALLOW:
+        return far
+    blunted = BLUNTING * float(np.tan(0.25 * turn)) * seen.pixel
+    return max(far, _off_line(points, node) / (CORNER_OFF * seen.largest_deviation + blunted))
 
 
 def _off_line(points: FloatArray, node: FloatArray) -> float:
