@@ -38,7 +38,8 @@ def fuzzed(ending: str, first: int, seconds: float) -> tuple[Counter[str], dict[
             innermost = INNERMOST.findall(done.stderr)
             counts["library" if innermost and calls_library(innermost[0]) else "FAULT"] += 1
             last = int(begun[-1]) if begun else seed
-            faults.setdefault(f"the process ended with {done.returncode}", last)
+            where = f" in {innermost[0]}" if innermost else ""
+            faults.setdefault(f"the process ended with {done.returncode}{where}", last)
         seed = int(begun[-1]) + 1 if begun else seed + 1
     return counts, faults
 

@@ -32,9 +32,7 @@ def chords_for_hooks(curve: BSplineCurve, tolerance: float) -> FloatArray:
     return chords(curve, SAMPLING_PART * tolerance)[0]
 
 
-def hooks(
-    line: FloatArray, polyline: FloatArray, tolerance: float, *, closed: bool = False
-) -> FloatArray:
+def hooks(line: FloatArray, polyline: FloatArray, tolerance: float, *, closed: bool) -> FloatArray:
     """Places where a curve turns back and the data beside it do not, shape (k, 2).
 
     A hook turns by more than 90 degrees within one tolerance of the curve's length, while the data
@@ -56,7 +54,8 @@ def hooks(
     Examples
     --------
     >>> data = np.array([(0.0, 0.0), (9.0, 0.0)])
-    >>> hooks(np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 0.1), (4.9, 0.1)]), data, 1.0).tolist()
+    >>> line = np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 0.1), (4.9, 0.1)])
+    >>> hooks(line, data, 1.0, closed=False).tolist()
     [[5.0, 0.05]]
     """
     if len(polyline) < 2 or len(line) < 2:

@@ -1,12 +1,15 @@
 """Fits as they were drawn, through the public functions."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from benchmarks.drawn import renderers
 from benchmarks.drawn.icons import outlines_of
 from benchmarks.drawn.tables import measured, rendered
-from benchmarks.drawn.truth import placed, sampled
+from benchmarks.drawn.truth import Line, placed, sampled
 from benchmarks.small_letters import drawn
+from tests.support.places import DATA
 from tests.support.promise import checked
 from tests.support.rendering import coverage, dark, polygon
 from tests.support.shapes import moved
@@ -229,6 +232,16 @@ def test_fillets_beside_a_free_form_nose_are_neither_chamfers_nor_notches(size, 
     assert len(small) >= 4
     assert np.ptp(small) < 1e-9 * size
     assert abs(large.mean() / small[0] / (1.25 / 0.62) - 1) < 0.02
+
+
+@pytest.mark.parametrize(("size", "place"), [(212, (22, 22)), (198, (21.64, 22.4))])
+def test_what_is_told_shorter_in_part_gives_way_to_what_is_exact(size, place):
+    line = ss.read(DATA / "paper" / "airplane1100.csv", closed=True).longest.polyline
+    corners = (line - line.min(axis=0)) / np.ptp(line, axis=0).max() * size + place
+    picture = renderers.exact([[Line(*pair) for pair in pairwise(corners)]], 256)
+    (fit,) = ss.fit_shape(ss.trace(picture))
+    assert fit.method == "drawn"
+    assert fit.hausdorff_distance < 0.18  # 0.24 and 0.23 told shorter (DRA-29)
 
 
 def test_what_is_organic_is_as_with_the_fewest_points():

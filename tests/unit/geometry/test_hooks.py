@@ -18,7 +18,7 @@ STRAIGHT = np.array([(0.0, 0.0), (10.0, 0.0)])
 def test_a_turn_is_a_hook_beyond_a_right_angle(degrees, tolerance):
     angle = np.radians(degrees)
     way = np.array([(0.0, 0.0), (5.0, 0.0), (5.0 + np.cos(angle), np.sin(angle))])
-    assert len(hooks(way, STRAIGHT, tolerance)) == (degrees > 90)
+    assert len(hooks(way, STRAIGHT, tolerance, closed=False)) == (degrees > 90)
 
 
 @pytest.mark.parametrize("degrees", [88, 96, 110])
@@ -30,17 +30,17 @@ def test_a_bend_is_one_however_long_the_curve_is(degrees):
     control += [0.7 * after, 100 * after, 200 * after]
     bent = BSplineCurve([0, 0, 0, 1, 1, 2, 2, 3, 3, 3], control, degree=2)
     data = np.array([(-900.0, 0.0), (900.0, 0.0)])
-    assert len(hooks(chords_for_hooks(bent, 1.0), data, 1.0)) == (degrees > 90)
+    assert len(hooks(chords_for_hooks(bent, 1.0), data, 1.0, closed=False)) == (degrees > 90)
 
 
 def test_a_turn_with_the_data_is_none():
     corner = np.array([(0.0, 0.0), (5.0, 0.0), (4.0, 1.0)])
-    assert len(hooks(corner, corner, 1.0)) == 0
-    assert len(hooks(corner, STRAIGHT, 1.0)) == 1
+    assert len(hooks(corner, corner, 1.0, closed=False)) == 0
+    assert len(hooks(corner, STRAIGHT, 1.0, closed=False)) == 1
     # A turn in steps that are longer than the tolerance is none either.
     wide = np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 2.0), (3.0, 2.0)])
-    assert len(hooks(wide, STRAIGHT, 1.0)) == 0
-    assert len(hooks(wide, np.array([(3.0, 3.0)]), 9.0)) == 0
+    assert len(hooks(wide, STRAIGHT, 1.0, closed=False)) == 0
+    assert len(hooks(wide, np.array([(3.0, 3.0)]), 9.0, closed=False)) == 0
 
 
 @pytest.mark.parametrize("folded", [False, True])
@@ -62,8 +62,8 @@ def test_where_data_pass_twice_the_pass_that_turns_counts():
     fold = np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 0.4), (0.0, 0.4)])
     passing = np.array([(9.0, 0.1), (-3.0, 0.1)])
     beside = np.concatenate([passing, [(-3.0, -9.0)], fold - (0.0, 0.2)])
-    assert len(hooks(fold, passing, 1.0)) == 1
-    assert len(hooks(fold, beside, 1.0)) == 0
+    assert len(hooks(fold, passing, 1.0, closed=False)) == 1
+    assert len(hooks(fold, beside, 1.0, closed=False)) == 0
 
 
 def test_a_hook_at_the_seam_of_a_closed_curve():
@@ -82,5 +82,5 @@ def test_a_stroke_that_ends_where_it_began_has_no_seam():
     # Its ends meet at an angle, which excuses no hook beside its first point.
     stroke = np.array([(0.0, 0.0), (9.0, 0.0), (9.0, 0.4), (0.0, 0.0)])
     way = np.concatenate([[(0.0, 0.0), (0.5, 0.1), (0.3, 0.1)], stroke[1:]])
-    assert len(hooks(way, stroke, 1.0)) > 0
+    assert len(hooks(way, stroke, 1.0, closed=False)) > 0
     assert len(hooks(way, stroke, 1.0, closed=True)) == 0

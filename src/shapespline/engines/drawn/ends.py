@@ -117,7 +117,7 @@ def cut_off(
     model: Model, k: int, m: int, node: FloatArray, tolerance: float
 ) -> tuple[FloatArray, FloatArray]:
     """Where element k ends and m begins: in their node, or beside it where data are blunted."""
-    far = _away(model, k, node)
+    far = away_from_data(model, k, node)
     turn = turn_at(model, k, m, node)
     if far <= NEAR_PART * tolerance or turn < SMOOTH_END:
         return node, node
@@ -130,14 +130,14 @@ def cut_off(
     for _ in range(CUTS):
         before = onto(model, k, node - back * direction_at(model, k, node))
         after = onto(model, m, node + back * direction_at(model, m, node))
-        far = max(_away(model, k, p) for p in (before, after, 0.5 * (before + after)))
+        far = max(away_from_data(model, k, p) for p in (before, after, 0.5 * (before + after)))
         if far <= NEAR_PART * tolerance:
             break
         back *= 1.25
     return before, after
 
 
-def _away(model: Model, k: int, node: FloatArray) -> float:
+def away_from_data(model: Model, k: int, node: FloatArray) -> float:
     """Distance of the node behind segment k from the data polyline about it."""
     points, at, n = model.row.points, model.row.found[k].end, len(model.row.points)
     around = np.arange(at - NEIGHBOURS, at + NEIGHBOURS + 1)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.engines.drawn.ends import (
+    away_from_data,
     data_length,
     length_along,
     length_between,
@@ -18,9 +19,7 @@ from shapespline.engines.drawn.segments import ARC, FREE
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
-    from shapespline.engines.drawn.observed import Observed
     from shapespline.engines.drawn.segments import Segments
-    from shapespline.typing import FloatArray
     from shapespline.values import Regularity
 
 # An element whose points are off by more deviations in the mean, or at most, is none (DRA-06).
@@ -75,7 +74,12 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
             continue
         beside = [model.row.points[i : j + 1] for i, j, _ in (model.row.found[s] for s in (k, m))]
         turn = turn_at(model, k, m, node)
-        far = _farness(model.seen, np.concatenate(beside), node, turn, reach)
+        # Blunted corners lie farther from their points the sharper they are.
+        away = float(np.hypot(*(np.concatenate(beside) - node).T).min())
+        far = away / reach * float(np.cos(0.5 * turn)) ** 0.5
+        if model.seen.pixel and turn < SHALLOW:
+            blunted = BLUNTING * float(np.tan(0.25 * turn)) * model.seen.pixel
+            far = max(far, away_from_data(model, k, node) / (CORNER_OFF * sigma + blunted))
         shorter = min(k, m, key=lambda one: data_length(model, one))
         if far > 1.0:
             bad.append((far, shorter))
@@ -90,27 +94,6 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         if far > 1.0:
             bad.append((far, k))
     return [max(bad)[1]] if bad else []
-
-
-def _farness(
-    seen: Observed, points: FloatArray, node: FloatArray, turn: float, reach: float
-) -> float:
-    """How far a node that turns so much is from the points beside it, of what it may be."""
-    # Blunted corners lie farther from their points the sharper they are.
-    away = float(np.hypot(*(points - node).T).min())
-    far = away / reach * float(np.cos(0.5 * turn)) ** 0.5
-    if not seen.pixel or turn >= SHALLOW:
-        return far
-    blunted = BLUNTING * float(np.tan(0.25 * turn)) * seen.pixel
-    return max(far, _off_line(points, node) / (CORNER_OFF * seen.largest_deviation + blunted))
-
-
-def _off_line(points: FloatArray, node: FloatArray) -> float:
-    """How far a node is from the line through points in order."""
-    begins, vectors = points[:-1], np.diff(points, axis=0)
-    lengths_sq = np.maximum((vectors**2).sum(axis=1), np.finfo(float).tiny)
-    shares = np.clip(((node - begins) * vectors).sum(axis=1) / lengths_sq, 0.0, 1.0)
-    return float(np.hypot(*(begins + shares[:, None] * vectors - node).T).min())
 
 
 def without_few(model: Model) -> Segments | None:
