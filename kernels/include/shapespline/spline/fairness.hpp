@@ -87,13 +87,22 @@ double median_speed(const StateCurves<Degree> &all) {
                                   all.intervals[s] / kSpeedSamples);
         total += all.intervals[s];
     }
-    std::sort(weighted.begin(), weighted.end());
-    double sum = 0.0;
-    for (const auto &[value, weight] : weighted) {
-        sum += weight;
-        if (sum >= 0.5 * total) return value;
+    // Halves are parted until one value is left: of all of them only their order about it counts.
+    auto low = weighted.begin(), high = weighted.end();
+    double below = 0.0;
+    while (high - low > 1) {
+        const auto middle = low + (high - low) / 2;
+        std::nth_element(low, middle, high);
+        double sum = below;
+        for (auto it = low; it != middle; ++it) sum += it->second;
+        if (sum >= 0.5 * total) {
+            high = middle;
+        } else {
+            low = middle;
+            below = sum;
+        }
     }
-    return 0.0;
+    return low == high ? 0.0 : low->first;
 }
 
 // The slowest speed, where it matters exactly: the least sample of a span is refined unless it

@@ -6,6 +6,7 @@
 // if both distances are proven to keep the tolerance and the fairness holds.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <map>
 #include <queue>
@@ -161,9 +162,11 @@ class KnotRemoval {
     };
     static constexpr int kRefitSamples = 24;
     static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
-    static constexpr double kThinning = 0.025, kBendPart = 5.0;  // of the tolerance (SPL-04)
+    static constexpr double kThinning = 0.025;  // of the tolerance (SPL-04)
     static constexpr int kSearchPoints = 150;  // at least (SPL-03)
-    static constexpr std::size_t kManyBends = 40;  // vertices (SPL-04)
+    // First knots for each that bends ask for, in one search and, if that misses the product rule,
+    // in the next one (SPL-15).
+    static constexpr std::array<std::array<double, 2>, 2> kDensities{{{0.6, 1.0}, {1.4, 2.0}}};
     static constexpr int kManyFailures = 12;  // in a row make others unlikely (SPL-07)
     static constexpr int kMedianAge = 256;  // control points for one removal that it may be old
     static constexpr double kTryStale = 0.97;
@@ -186,16 +189,12 @@ class KnotRemoval {
         measure_fairness();
         return true;
     }
-    // Few knots cut across the bends of an outline that has many; its chords show where they are.
     std::vector<std::vector<int>> first_knots() const {
-        const auto even = [&](int count) {
-            return even_points(search_, std::max(count, 3 * Degree + 4));
-        };
-        if (settings_.start == 1) return {even(56), even(83)};
-        if (settings_.start != 0) return {};
-        const double distance = kBendPart * settings_.fit.tolerance;
-        const std::vector<int> bends = chord_vertices(search_, distance, search_.total);
-        return {bends.size() > kManyBends ? bends : even(24), even(37), even(56)};
+        if (settings_.start >= static_cast<int>(kDensities.size())) return {};
+        std::vector<std::vector<int>> found;
+        for (const double density : kDensities[settings_.start])
+            found.push_back(points_by_bending<Degree>(search_, settings_.fit.tolerance, density));
+        return found;
     }
     bool start_is_fair() const {
         return slowest_ >= settings_.fairness.speed_ratio && n_hooks_ == 0 &&
@@ -373,7 +372,8 @@ class KnotRemoval {
         const Vec2 margin{2.0 * settings_.fit.tolerance, 2.0 * settings_.fit.tolerance};
         box.include(box.low - margin);
         box.include(box.high + margin);
-        return crossings(all, box) - crossings(StateCurves<Degree>(state_), box);
+        const int before = n_crossings_ > 0 ? crossings(StateCurves<Degree>(state_), box) : 0;
+        return crossings(all, box) - before;
     }
     int crossings(const StateCurves<Degree> &all, const Box &box) const {
         const auto chords = flattened(all, kFlatness * settings_.fit.tolerance, box);

@@ -79,6 +79,52 @@ inline std::vector<int> even_points(const ArcPolyline &data, int count) {
     return at;
 }
 
+// Data points for first knots, as dense as the curve bends: a spline of degree d whose knots are h
+// apart misses a bend of radius r by about (h / r)^d h, so that a length h which turns by an angle
+// asks for (angle^d h / tolerance)^(1 / (d + 1)) knots (after de Boor 1973). How the data bend is
+// told by chords within the tolerance. `density` knots are spread for each that is asked for, and
+// kEven or more of them evenly, on straight runs too.
+template <int Degree>
+std::vector<int> points_by_bending(const ArcPolyline &data, double tolerance, double density) {
+    constexpr int kEven = 4, kLeast = 3 * Degree + 4;
+    std::vector<int> at = chord_vertices(data, tolerance, data.total);
+    if (data.closed) at.push_back(data.size());
+    const int n = static_cast<int>(at.size()), n_chords = n - 1;
+    const auto chord = [&](int i) { return data.point(at[i + 1]) - data.point(at[i]); };
+    std::vector<double> asked(n, 0.0);
+    for (int i = data.closed ? 0 : 1; i < n_chords; ++i) {
+        const Vec2 before = chord(i > 0 ? i - 1 : n_chords - 1), after = chord(i);
+        const double angle = std::abs(std::atan2(cross(before, after), dot(before, after)));
+        const double length = 0.5 * (norm(before) + norm(after));
+        asked[i] = density * std::pow(std::pow(angle, Degree) * length / tolerance,
+                                      1.0 / (Degree + 1));
+    }
+    if (data.closed) asked.back() = asked.front();
+    double even = kLeast;
+    for (int i = 0; i < n_chords; ++i) even -= asked[i];
+    even = std::max<double>(even, kEven);
+    std::vector<double> sum{0.0};  // of knots up to each vertex
+    for (int i = 0; i < n_chords; ++i) {
+        const double part = (data.arc(at[i + 1]) - data.arc(at[i])) / data.total;
+        sum.push_back(sum.back() + 0.5 * (asked[i] + asked[i + 1]) + even * part);
+    }
+    const int count = static_cast<int>(std::ceil(sum.back()));
+    std::vector<int> chosen;
+    for (int i = 0, k = 0; k < count; ++k) {
+        const double wanted = k * sum.back() / (data.closed ? count : count - 1);
+        while (i + 1 < n_chords && sum[i + 1] < wanted) ++i;
+        const double from = data.arc(at[i]), part = (wanted - sum[i]) / (sum[i + 1] - sum[i]);
+        const double place = from + part * (data.arc(at[i + 1]) - from);
+        int j = std::min(data.first_at(place), at.back());
+        if (j > 0 && data.arc(j) - place > place - data.arc(j - 1)) --j;
+        if (data.closed && j == data.size()) break;
+        if (chosen.empty() || j > chosen.back()) chosen.push_back(j);
+    }
+    // Where all that bends is a few corners, one point stands for many.
+    if (static_cast<int>(chosen.size()) < kLeast) return even_points(data, kLeast);
+    return chosen;
+}
+
 // A polyline within a distance of the data as a spline: its vertices are knots of full
 // multiplicity.
 template <int Degree>

@@ -49,10 +49,11 @@ def with_fillets(model: Model, *, all_alike: bool = False) -> Segments | None:
     fillets: dict[int, Fillet] = {}
     edges: set[int] = set()
     gone: set[int] = set()
-    for k in range(n):
+    lines = {k for k in model.at if model.kind(k) == LINE}
+    for k in sorted(lines):
         for m in range(min(MOST, n - 2), -1, -1):
             inner, after = [(k + i) % n for i in range(1, m + 1)], (k + m + 1) % n
-            if not closed and k + m + 1 >= n:
+            if after not in lines or (not closed and k + m + 1 >= n):
                 continue
             if not gone.isdisjoint((k, after)) or not (edges | gone).isdisjoint(inner):
                 continue
@@ -84,12 +85,11 @@ def with_fillets(model: Model, *, all_alike: bool = False) -> Segments | None:
 
 def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int, *, forced: bool) -> Fillet | None:
     """The best one between two lines, if what lies there turns as it does."""
-    if a == b or not all(k in model.at for k in (a, *inner, b)):
+    if a == b or not all(k in model.at for k in inner):
         return None
-    kinds = [model.kind(k) for k in (a, *inner, b)]
+    if [model.kind(k) for k in inner] == [ARC]:
+        return None
     shorter = min(data_length(model, a), data_length(model, b))
-    if (kinds[0], kinds[-1]) != (LINE, LINE) or kinds[1:-1] == [ARC]:
-        return None
     if any(data_length(model, k) >= shorter for k in inner):
         return None
     along_a, along_b = (unit_of(float(model.x[model.at[k]])) for k in (a, b))
