@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -111,12 +112,13 @@ def runs_of(problem: Problem, pieces: tuple[Piece, ...]) -> list[Run]:
         return []
     pieces = (*pieces[first.piece :], *pieces[: first.piece])
     turns = {(k - first.piece) % n: turn for k, turn in turns.items()}
+    turning = sorted(turns)
     begins, ends = (tangent is not None for tangent in problem.request.constraints.tangents)
     runs = []
     for begin, end in pairwise(cuts):
         own, points = pieces[begin.piece : end.piece], row[begin.point : end.point + 1].copy()
         points[0], points[-1] = own[0].control_points[0], own[-1].control_points[-1]
-        n_turns = sum(begin.piece < k < end.piece for k in turns)
+        n_turns = bisect_left(turning, end.piece) - bisect_right(turning, begin.piece)
         end_turns = (turns.get(begin.piece, pi), turns.get(end.piece % n, pi))
         is_held = (begins and begin == cuts[0]) or (ends and end == cuts[-1])
         runs.append(Run(own, points, n_turns, end_turns, is_held))

@@ -17,7 +17,7 @@ from shapespline.engines.drawn.ends import (
     nodes_of,
     sweep_of,
 )
-from shapespline.engines.drawn.fillets import with_fillets
+from shapespline.engines.drawn.fillets import rows_with_fillets
 from shapespline.engines.drawn.joints import direction_at, turn_at
 from shapespline.engines.drawn.judgement import (
     HOPELESS,
@@ -143,7 +143,7 @@ def _of_row(
     while (fewer := without_few(model)) is not None and n_few < MOST_WRONG:
         model, n_few = Model.of(seen, fewer, model, ends), n_few + 1
     best = _estimated(model, model.row, tolerance)
-    for filleted in () if seen.pixel else _filleted(model):
+    for filleted in () if seen.pixel else rows_with_fillets(model):
         other = _estimated(model, filleted, tolerance)
         if other is not None:
             as_it_is = other.model.row is filleted
@@ -161,15 +161,6 @@ def _of_row(
         model = Model.of(seen, model.row, model, ends)
         found = Search(model, regularities).run()
     return _drawn(_shared_anew(model), found, tolerance, told)
-
-
-def _filleted(model: Model) -> Iterator[Segments]:
-    """Rows with fillets: where the points tell them, and all alike if that is another one."""
-    told, alike = with_fillets(model), with_fillets(model, all_alike=True)
-    if told is not None:
-        yield told
-    if alike is not None and (told is None or alike.found != told.found):
-        yield alike
 
 
 class Estimated(NamedTuple):

@@ -6,7 +6,8 @@ for each smooth joint lets them win; but a fillet is told by its radius alone (D
 
 from __future__ import annotations
 
-from math import atan2, cos, tan
+from functools import cache, partial
+from math import atan2, cos, inf, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -16,6 +17,8 @@ from shapespline.engines.drawn.joints import meeting, unit_of
 from shapespline.engines.drawn.segments import ARC, LINE, PRICE, SMOOTH, Segment
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
     from shapespline.engines.drawn.model import Model
     from shapespline.engines.drawn.segments import Segments
     from shapespline.typing import FloatArray
@@ -31,16 +34,37 @@ FEWEST = 5
 
 
 class Fillet(NamedTuple):
-    """An arc instead of the segments between two edges, from a point of the row to another."""
+    """An arc instead of the segments between two edges, from a point of the row to another.
+
+    ``is_told`` if it leaves less than what lies there now, ``is_possible`` if it leaves anything.
+    """
 
     before: int
     inner: tuple[int, ...]
     after: int
     begin: int
     end: int
+    is_told: bool
+    is_possible: bool
 
 
-def with_fillets(model: Model, *, all_alike: bool = False) -> Segments | None:
+def rows_with_fillets(model: Model) -> Iterator[Segments]:
+    """Rows with fillets: where the points tell them, and all alike if that is another one."""
+    best = cache(partial(_fillet, model))
+    told = _with_fillets(model, best, all_alike=False)
+    alike = _with_fillets(model, best, all_alike=True)
+    if told is not None:
+        yield told
+    if alike is not None and (told is None or alike.found != told.found):
+        yield alike
+
+
+def _with_fillets(
+    model: Model,
+    best: Callable[[int, tuple[int, ...], int], Fillet | None],
+    *,
+    all_alike: bool,
+) -> Segments | None:
     """The row with fillets between edges wherever shorter elements or too little lie; or None.
 
     ``all_alike`` takes them for all shorter elements, though some are told by these as well.
@@ -57,8 +81,10 @@ def with_fillets(model: Model, *, all_alike: bool = False) -> Segments | None:
                 continue
             if not gone.isdisjoint((k, after)) or not (edges | gone).isdisjoint(inner):
                 continue
-            found = _fillet(model, k, tuple(inner), after, forced=all_alike and m > 0)
-            if found is not None:
+            found = best(k, tuple(inner), after)
+            if found is None:
+                continue
+            if found.is_possible if all_alike and m > 0 else found.is_told:
                 fillets[k] = found
                 edges |= {k, after}
                 gone |= set(inner)
@@ -83,7 +109,7 @@ def with_fillets(model: Model, *, all_alike: bool = False) -> Segments | None:
     return row if all(j - i >= FEWEST for i, j, _ in row.found) else None
 
 
-def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int, *, forced: bool) -> Fillet | None:
+def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int) -> Fillet | None:
     """The best one between two lines, if what lies there turns as it does."""
     if a == b or not all(k in model.at for k in inner):
         return None
@@ -131,10 +157,10 @@ def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int, *, forced: boo
         outside = np.flatnonzero(before <= -radius * tan(half))
         beyond = np.flatnonzero(after >= radius * tan(half))
         if not len(outside) or not len(beyond):
-            return np.inf, 0, 0
+            return inf, 0, 0
         p, q = int(outside[-1]), middle + int(beyond[0])
         if p == 0 or q == len(points) - 1 or q - p < FEWEST:
-            return np.inf, 0, 0
+            return inf, 0, 0
         centre = corner + inward * radius / cos(half)
         off = (np.hypot(*(points[p : q + 1] - centre).T) - radius) ** 2
         return float(off_a[:p].sum() + off.sum() + off_b[q + 1 :].sum()), p, q
@@ -143,8 +169,7 @@ def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int, *, forced: boo
     radii = largest * (RADII if inner else CUTS)
     best = min(radii.tolist(), key=lambda radius: told_by(radius)[0])
     left, p, q = min(told_by(radius) for radius in (best * FINER).tolist())
-    told = left < (np.inf if forced else least)
-    return Fillet(a, inner, b, first + p, first + q) if told else None
+    return Fillet(a, inner, b, first + p, first + q, left < least, left < inf)
 
 
 def _turn(u: FloatArray, v: FloatArray) -> float:
