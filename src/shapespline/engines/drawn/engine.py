@@ -33,6 +33,7 @@ from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES, Search
+from shapespline.engines.drawn.repeats import rows_repeated
 from shapespline.engines.drawn.segments import (
     FREE,
     LINE,
@@ -152,9 +153,15 @@ def _of_row(
         other = _estimated(model, row, tolerance)
         if other is not None and other.model.row is row and other.cost < best.cost:
             best = other
+    as_read = best is not None and best.model.row is model.row
+    for repeated_row in rows_repeated(seen, model.row if best is None else best.model.row):
+        other = _estimated(model, repeated_row, tolerance)
+        if other is not None and other.model.row is repeated_row:
+            best, as_read = other, True
+            break
     if best is None or not (best.told or is_short(best.model)):
         return None
-    if whole and best.model.row is not model.row:
+    if whole and not as_read:
         return None
     model, found, told = best.model, best.found, best.told
     if set(regularities) != set(NAMES):
