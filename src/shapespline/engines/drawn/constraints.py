@@ -9,7 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, hypot, sin
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from operator import is_
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray, IntArray
 
     ComplexArray = NDArray[np.complex128]
-    Values: TypeAlias = tuple[FloatArray, IntArray, FloatArray]
 
 
 class Constraint(Protocol):
@@ -51,23 +51,11 @@ class Difference:
 
     def value(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """h, and its Jacobian."""
-        jacobian = np.eye(len(self.a))
+        h, jacobian = x[list(self.a)] - self.turn, np.eye(len(self.a))
         if self.b:
+            h = h - self.sign * x[list(self.b)]
             jacobian = np.hstack([jacobian, -self.sign * jacobian])
-        return self.values([self], x)[0], jacobian
-
-    @staticmethod
-    def values(ones: Sequence[Difference], x: FloatArray) -> Values:
-        """H of some, the unknowns of each and the Jacobian over these."""
-        rows = [
-            (i, j, one.turn, one.sign if one.b else 0.0)
-            for one in ones
-            for i, j in zip(one.a, one.b or one.a, strict=True)
-        ]
-        table = np.array(rows).reshape(-1, 4)
-        index, turn, sign = table[:, :2].astype(np.int64), table[:, 2], table[:, 3]
-        h = x[index[:, 0]] - turn - sign * x[index[:, 1]]
-        return h, index, np.column_stack([np.ones(len(h)), -sign])
+        return h, jacobian
 
 
 @dataclass(frozen=True)
@@ -85,19 +73,7 @@ class LineTouches:
 
     def value(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """h, and its Jacobian."""
-        h, _, jacobian = self.values([self], x)
-        return h, jacobian
-
-    @staticmethod
-    def values(ones: Sequence[LineTouches], x: FloatArray) -> Values:
-        """H of some, the unknowns of each and the Jacobian over these."""
-        index = np.array([one.index for one in ones], dtype=np.int64).reshape(-1, 5)
-        way = np.array([one.way for one in ones])
-        phi, d, cx, cy, r = x[index].T
-        c, s = np.cos(phi), np.sin(phi)
-        h = -s * cx + c * cy - d - way * r
-        one = np.ones(len(ones))
-        return h, index, np.column_stack([-c * cx - s * cy, -one, -s, c, -way])
+        return _touches(x[None, list(self.index)], np.array([self.way]))
 
 
 @dataclass(frozen=True)
@@ -220,22 +196,57 @@ class Images:
         return np.stack([dx - px, dy - py, s - r], axis=-2)
 
 
-def equations(constraints: Sequence[Constraint], x: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Values and Jacobian of all: those of one kind at once, of which there may be many."""
-    values, rows = [np.empty(0)], [np.empty((0, len(x)))]
-    differences = [one for one in constraints if isinstance(one, Difference)]
-    touches = [one for one in constraints if isinstance(one, LineTouches)]
-    for h, index, jacobian in (Difference.values(differences, x), LineTouches.values(touches, x)):
-        row = np.zeros((len(h), len(x)))
-        for column, slopes in zip(index.T, jacobian.T, strict=True):
-            row[np.arange(len(h)), column] += slopes
-        values.append(h)
-        rows.append(row)
-    for one in constraints:
-        if not isinstance(one, Difference | LineTouches):
-            h, own_slopes = one.value(x)
-            row = np.zeros((len(h), len(x)))
-            row[:, one.index] = own_slopes
+class Equations:
+    """All equations of a model; those of one kind at once, of which there may be many."""
+
+    def __init__(self, constraints: Sequence[Constraint], n: int) -> None:
+        self._constraints, self._n = tuple(constraints), n
+        self._others = [c for c in constraints if not isinstance(c, Difference | LineTouches)]
+        pairs = [
+            (i, j, one.turn, one.sign if one.b else 0.0)
+            for one in constraints
+            if isinstance(one, Difference)
+            for i, j in zip(one.a, one.b or one.a, strict=True)
+        ]
+        table = np.array(pairs).reshape(-1, 4)
+        self._a, self._b = table[:, :2].astype(np.int64).T
+        self._turn, self._sign = table[:, 2], table[:, 3]
+        own = np.arange(len(table))
+        self._differences = np.zeros((len(table), n))
+        self._differences[own, self._a] += 1.0
+        self._differences[own, self._b] -= self._sign
+        touches = [one for one in constraints if isinstance(one, LineTouches)]
+        self._touching = np.array([one.index for one in touches], dtype=np.int64).reshape(-1, 5)
+        self._way = np.array([one.way for one in touches])
+
+    def are_of(self, constraints: Sequence[Constraint], n: int) -> bool:
+        """Whether they are those of so many unknowns."""
+        if len(constraints) != len(self._constraints) or n != self._n:
+            return False
+        return all(map(is_, constraints, self._constraints))
+
+    def at(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Values and Jacobian."""
+        values = [x[self._a] - self._turn - self._sign * x[self._b]]
+        rows = [self._differences]
+        if len(self._way):
+            h, slopes = _touches(x[self._touching], self._way)
+            row = np.zeros((len(h), self._n))
+            np.put_along_axis(row, self._touching, slopes, axis=1)
             values.append(h)
             rows.append(row)
-    return np.concatenate(values), np.concatenate(rows)
+        for one in self._others:
+            h, slopes = one.value(x)
+            row = np.zeros((len(h), self._n))
+            row[:, one.index] = slopes
+            values.append(h)
+            rows.append(row)
+        return np.concatenate(values), np.concatenate(rows)
+
+
+def _touches(unknowns: FloatArray, way: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Of lines that touch circles, shape (m, 5): h, and its Jacobian over these unknowns."""
+    phi, d, cx, cy, r = unknowns.T
+    c, s = np.cos(phi), np.sin(phi)
+    h = -s * cx + c * cy - d - way * r
+    return h, np.column_stack([-c * cx - s * cy, -np.ones(len(way)), -s, c, -way])

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.engines.drawn.constraints import PassesThrough, equations
+from shapespline.engines.drawn.constraints import Equations, PassesThrough
 from shapespline.engines.drawn.segments import ARC, FREE, LINE, PRICE, SHORTEST_STEPS
 
 if TYPE_CHECKING:
@@ -67,6 +67,7 @@ class Model:
     alone: dict[Key, tuple[float, ...]] = field(default_factory=dict)
     beside: set[Key] = field(default_factory=set)
     ends: FloatArray | None = None
+    _known_equations: Equations | None = None
 
     @classmethod
     def of(
@@ -208,7 +209,14 @@ class Model:
         """
         unit = np.ones(len(self.x))
         unit[[o for k, o in self.at.items() if self.kind(k) == LINE]] = 1.0 / self.extent
-        return _kernels.MeetingSteps(*equations(self.constraints, self.x), unit, IMPLIED)
+        return _kernels.MeetingSteps(*self.equations(), unit, IMPLIED)
+
+    def equations(self) -> tuple[FloatArray, FloatArray]:
+        """Values and Jacobian of all constraints."""
+        known = self._known_equations
+        if known is None or not known.are_of(self.constraints, len(self.x)):
+            known = self._known_equations = Equations(self.constraints, len(self.x))
+        return known.at(self.x)
 
     @property
     def n_free(self) -> int:

@@ -18,7 +18,6 @@ from shapespline.engines.drawn.constraints import (
     CirclesTouch,
     Difference,
     LineTouches,
-    equations,
 )
 from shapespline.engines.drawn.joints import meeting, turn_at
 from shapespline.engines.drawn.lengths import Edge, EqualLengths
@@ -261,7 +260,7 @@ def tangency(model: Model, k: int, m: int) -> Constraint | None:
 
 def fits_badly(model: Model, before: dict[int, Misfit]) -> bool:
     """Whether equations are not met, or an element fits worse than noise explains."""
-    h, _ = equations(model.constraints, model.x)
+    h, _ = model.equations()
     if len(h) and not float(np.abs(h).max()) <= MET * model.extent:
         return True
     anyhow = ANYHOW * model.seen.largest_deviation / model.seen.deviation

@@ -24,8 +24,9 @@ if TYPE_CHECKING:
 
     ComplexArray = NDArray[np.complex128]
 
-# Places of an outline that are compared with their images, and the highest order of a rotation.
-PLACES, HIGHEST = 1024, 72
+# Places of an outline that are compared with their images, and the highest order of a rotation;
+# every so many-th of the places is looked at first.
+PLACES, FIRST_EVERY, HIGHEST = 1024, 32, 72
 # How far an image may be off, in parts of the extent and in deviations, and the nodes of an image,
 # in steps (DRA-30).
 OFF_PART, OFF_DEVIATIONS, NEAR_STEPS = 0.01, 6.0, 4.0
@@ -90,9 +91,14 @@ def _parts(seen: Observed, row: Segments) -> list[_Part]:
     reach = max(OFF_PART * float(np.ptp(row.points, axis=0).max()), OFF_DEVIATIONS * seen.deviation)
     x, y = places.real, places.imag
     way = 1.0 if float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) > 0 else -1.0
+
+    def turns(order: int, every: int) -> bool:
+        images = _at(row, at[::every] + total / order) - middle
+        turned = np.exp(2j * np.pi * way / order) * places[::every]
+        return bool(abs(turned - images).max() <= reach)
+
     for order in range(min(HIGHEST, len(row.found)), 1, -1):
-        images = _at(row, at + total / order) - middle
-        if abs(np.exp(2j * np.pi * way / order) * places - images).max() <= reach:
+        if turns(order, FIRST_EVERY) and turns(order, 1):
             begins = _begins(row)
             return [
                 _Part(begin, total / order, order, False)

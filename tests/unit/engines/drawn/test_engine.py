@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shapespline.engines.drawn import NAMES, DrawnArc, DrawnLine, FreeRun, as_drawn
-from shapespline.engines.drawn.constraints import CirclesTouch, Images, LineTouches, equations
+from shapespline.engines.drawn.constraints import CirclesTouch, Images, LineTouches
 from shapespline.engines.drawn.ends import at_corners
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
@@ -205,7 +205,7 @@ def test_equations_are_met_and_the_rest_is_least_squares():
     circle = next(iter(model.ways))
     model.constraints.append(LineTouches(model.at[line], model.at[circle], model.ways[circle]))
     model.solve()
-    value, jacobian = equations(model.constraints, model.x)
+    value, jacobian = model.equations()
     assert abs(value[0]) < 1e-10
     assert model.n_free == len(model.x) - 1
     matrix, gradient, _ = model.normal(model.x)

@@ -1,5 +1,7 @@
 """Rows read alike where their outline is its own image."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -17,7 +19,7 @@ def cog(teeth=8, n=20):
     sides = []
     for k in range(teeth):
         ends = [r * np.exp(1j * part * (k + at)) for r, at in corners]
-        for a, b in zip(ends, ends[1:], strict=False):
+        for a, b in pairwise(ends):
             sides.append(a + (b - a) * np.arange(n) / n)
         sides.append(10 * np.exp(1j * part * (k + 0.25 + 0.5 * np.arange(n) / n)))
     z = np.concatenate(sides)
