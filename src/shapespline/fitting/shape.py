@@ -10,6 +10,7 @@ import numpy as np
 from shapespline.analysis import shared_arcs
 from shapespline.errors import InvalidInputError
 from shapespline.fitting.across import across_outlines
+from shapespline.fitting.copies import equal_copies
 from shapespline.fitting.repair import uncrossed
 from shapespline.fitting.request import Request
 from shapespline.fitting.settings import Settings, tolerance_length
@@ -212,6 +213,9 @@ def _solved(
     if tolerance is not None:
         tolerance = tolerance_length(tolerance, request.shape.contours[0])
     fits, found = across_outlines(fits, allowed, tolerance)
+    if requests[0].style.character == "drawn" and "equal-copies" in allowed:
+        fits, equal = equal_copies(fits, tolerance)
+        found += equal
     apart = uncrossed(fits, requests[0], ask)
     same = {k for k, (one, now) in enumerate(zip(fits, apart, strict=True)) if one is now}
     return apart, tuple(one for one in found if same.issuperset(one.pieces))

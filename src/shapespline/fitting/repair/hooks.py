@@ -33,9 +33,10 @@ if TYPE_CHECKING:
     from shapespline.values import Fit
 
 # Parts of the tolerance that windows are fitted within, and how many neighbours on each side go
-# with them; parts for everything, of curves of no more stored points, or of no more data (FIT-27).
+# with them; parts for everything, of curves of no more stored points, or of no more data, where one
+# spline was asked for and has no windows of more (FIT-27).
 STEPS = ((0.75, 0), (0.75, 1), (0.5, 1), (0.25, 1))
-WHOLE, MOST_POINTS = (0.97, 0.9, 0.65, 0.35), 300
+WHOLE, MOST_POINTS, MOST_OF_ONE_SPLINE = (0.97, 0.9, 0.65, 0.35), 300, 1000
 # Windows that take more than so many times the points before compete with everything fitted again,
 # within no less than this part (FIT-29).
 CHEAP, CLOSEST_FOR_FEWER = 1.03, 0.9
@@ -55,7 +56,8 @@ def unhook(
     if not fit.kept or not len(_hooks_of(fit, request)):
         return fit
     best = fit
-    few = min(fit.n_stored_points, len(fit.contour)) <= MOST_POINTS
+    most = MOST_OF_ONE_SPLINE if request.style.form == "spline" else MOST_POINTS
+    few = min(fit.n_stored_points, len(fit.contour)) <= most
     is_rough = not few and fit.n_stored_points > NEARLY_ALL * len(fit.contour)
     is_plain = request.is_plain and request.weights is None and request.style.smoothness == 1
     if is_plain and not is_rough:
