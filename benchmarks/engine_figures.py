@@ -279,7 +279,7 @@ def crossings_repaired() -> None:
     after = ss.fit_curve(contour, tolerance=tolerance).spline
     feet = before(nearest(before, contour.points).parameters)
     run = DataRun(contour.points, contour.arc_length[: len(contour)])
-    across = Sides.of([contour]).across(run, 0, within)
+    across = Sides([contour]).across(run, 0, reach=2 * within, least=within)
     aside = moved(contour.points, feet, across, within, tolerance - within)
     figure, axes = canvas(13.0, 3.1, 3)
     middle = _where_it_crosses(found.sections)
