@@ -33,9 +33,10 @@ from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES, Search
-from shapespline.engines.drawn.repeats import rows_repeated
+from shapespline.engines.drawn.repeats import free_runs, rows_repeated
 from shapespline.engines.drawn.segments import (
     FREE,
+    FREE_PARAMETERS,
     LINE,
     PRICE,
     SMOOTH,
@@ -156,7 +157,9 @@ def _of_row(
     as_read = best is not None and best.model.row is model.row
     for repeated_row in rows_repeated(seen, model.row if best is None else best.model.row):
         other = _estimated(model, repeated_row, tolerance)
-        if other is not None and other.model.row is repeated_row:
+        if other is None or other.model.row is not repeated_row:
+            continue
+        if best is None or _is_preferred(other, best):
             best, as_read = other, True
             break
     if best is None or not (best.told or is_short(best.model)):
@@ -201,6 +204,12 @@ def _estimated(model: Model, row: Segments, tolerance: float) -> Estimated | Non
                 return None
         row, n_wrong = supported(_without(row, bad), seen.closed), n_wrong + len(bad)
     return None
+
+
+def _is_preferred(alike: Estimated, best: Estimated) -> bool:
+    """Whether parts that are read alike need fewer free-form runs, or are told for less."""
+    more = free_runs(alike.model.row) - free_runs(best.model.row)
+    return more < 0 or alike.cost + PRICE * FREE_PARAMETERS * more <= best.cost
 
 
 def _shared_anew(model: Model) -> Model:

@@ -34,6 +34,11 @@ OFF_PART, OFF_DEVIATIONS, NEAR_STEPS = 0.01, 6.0, 4.0
 MOST_READINGS = 3
 
 
+def free_runs(row: Segments) -> int:
+    """How many free-form runs a row has: segments side by side are one."""
+    return _kinds(_joined(row)).count(str(FREE))
+
+
 class _Part(NamedTuple):
     """A part of an outline whose images are all of it: ``order`` of them by turns, two by a mirror.
 
@@ -65,9 +70,10 @@ def rows_repeated(seen: Observed, row: Segments) -> Iterator[Segments]:
     kinds = _kinds(row)
     if not seen.closed or len(kinds) < 3 or len(kinds) == kinds.count(str(FREE)):
         return
-    rows: dict[str, Segments] = {}
+    rows: dict[str, tuple[_Part, Segments]] = {}
+    near = NEAR_STEPS * seen.step
     for part in _parts(seen, row):
-        other = _read_alike(row, part, NEAR_STEPS * seen.step)
+        other = _read_alike(row, part, near)
         if other is None:
             continue
         own = _kinds(other)
@@ -76,9 +82,13 @@ def rows_repeated(seen: Observed, row: Segments) -> Iterator[Segments]:
         # What most of many parts are stands for all, if the elements of fewer do not.
         n_free, was = own.count(str(FREE)), kinds.count(str(FREE))
         if n_free <= was or (part.order > 2 and n_free < 2 * was):
-            rows.setdefault(own, other)
+            rows.setdefault(own, (part, other))
     simplest = sorted(rows, key=lambda own: (own.count(str(FREE)), len(own)))
-    yield from (rows[own] for own in simplest[:MOST_READINGS])
+    for part, other in (rows[own] for own in simplest[:MOST_READINGS]):
+        yield other
+        exact = _read_alike(row, part, near, exactly=True)
+        if exact is not None and exact.found != other.found:
+            yield exact
 
 
 def _parts(seen: Observed, row: Segments) -> list[_Part]:
@@ -118,10 +128,13 @@ def _parts(seen: Observed, row: Segments) -> list[_Part]:
     return [_Part(begin + side, 0.5 * total, 2, True) for side in (0.0, 0.5 * total)]
 
 
-def _read_alike(row: Segments, part: _Part, near: float) -> Segments | None:
+def _read_alike(
+    row: Segments, part: _Part, near: float, *, exactly: bool = False
+) -> Segments | None:
     """The row with all images of a part read as this one; None where these do not make an outline.
 
-    Nodes stay where they are if they are near enough to such an image.
+    Nodes stay where they are if they are near enough to such an image, or ``exactly`` are images,
+    where the median of them is.
     """
     total, begins = float(row.stations[-1]), _begins(row)
     stations: list[float] = []
@@ -134,11 +147,14 @@ def _read_alike(row: Segments, part: _Part, near: float) -> Segments | None:
             continue
         if away > part.length:
             continue
-        stations += part.images(part.begin + away)
+        images = part.images(part.begin + away)
+        if exactly:
+            images = part.images(part.begin + away + _median_miss(begins, part, images, near))
+        stations += images
     nodes: set[int] = set()
     for station in stations:
         k = int(np.abs(_apart(begins, station, total)).argmin())
-        if _between(begins[k : k + 1], station, total) <= near:
+        if not exactly and _between(begins[k : k + 1], station, total) <= near:
             nodes.add(row.found[k].begin)
         else:
             nodes.add(int(np.abs(row.stations[:-1] - station % total).argmin()))
@@ -154,6 +170,17 @@ def _read_alike(row: Segments, part: _Part, near: float) -> Segments | None:
     ordered, kinds = ordered[whole:] + ordered[:whole], kinds[whole:] + kinds[:whole]
     named = row._replace(found=tuple(Segment(0, 0, kind) for kind in kinds))
     return _joined(named.cut_at(ordered))
+
+
+def _median_miss(begins: FloatArray, part: _Part, images: list[float], near: float) -> float:
+    """How far nodes are from images of one, along the part; the median of those that are near."""
+    total, missed = part.order * part.length, []
+    for k, image in enumerate(images):
+        off = _apart(begins, image, total)
+        nearest = float(off[np.abs(off).argmin()])
+        if abs(nearest) <= near:
+            missed.append(-nearest if part.is_mirrored and k else nearest)
+    return float(np.median(missed)) if missed else 0.0
 
 
 def _begins(row: Segments) -> FloatArray:

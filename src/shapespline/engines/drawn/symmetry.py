@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.engines.drawn.constraints import Images
+from shapespline.engines.drawn.ends import off_by
 from shapespline.engines.drawn.joints import meeting
 from shapespline.engines.drawn.segments import ARC, FREE, LINE
 
@@ -48,7 +49,7 @@ def symmetries(
             order = n // step
             angle = 2 * pi / order * _way_round(model)
             middle = points.mean(axis=0)
-            off = _missed(_turned(points - middle, angle) + middle, np.roll(points, -step, axis=0))
+            off = _across(model, _turned(points - middle, angle) + middle, step)
             if off > reach:
                 continue
             images = [(k, k + step) for k in range(n - step)]
@@ -116,6 +117,19 @@ def _way_round(model: Model) -> float:
 def _turned(points: FloatArray, angle: float) -> FloatArray:
     c, s = cos(angle), sin(angle)
     return points @ np.array([[c, s], [-s, c]])
+
+
+def _across(model: Model, images: FloatArray, step: int) -> float:
+    """How far images of nodes are from the elements that they lie on.
+
+    Along these nodes are known less where elements hardly turn.
+    """
+    n = len(images)
+    return max(
+        float(np.abs(off_by(model, (k + side) % n, images[[k - step]])).max())
+        for k in range(n)
+        for side in (0, 1)
+    )
 
 
 def _missed(points: FloatArray, others: FloatArray) -> float:

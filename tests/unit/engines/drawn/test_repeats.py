@@ -1,14 +1,18 @@
 """Rows read alike where their outline is its own image."""
 
+from io import BytesIO
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from PIL import Image
 
+import shapespline as ss
 from shapespline.engines.drawn import DrawnArc, DrawnLine, as_drawn
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.repeats import rows_repeated
 from shapespline.engines.drawn.segments import ARC, FREE, LINE, Segment, segmented
+from shapespline.studio.examples import example_bytes
 from shapespline.values import Contour
 
 
@@ -90,7 +94,34 @@ def test_halves_are_read_alike_with_the_fewer_nodes_first():
     middle = (i + j) // 2
     cut = (Segment(i, middle, LINE), Segment(middle, j, LINE))
     odd = row._replace(found=(*row.found[:k], *cut, *row.found[k + 1 :]))
-    assert [len(one.found) for one in rows_repeated(seen, odd)] == [7, 9]
+    sizes = [len(one.found) for one in rows_repeated(seen, odd)]
+    assert sizes == sorted(sizes)
+    assert set(sizes) == {7, 9}
+
+
+def test_nodes_stay_or_are_images_where_the_median_of_all_is():
+    seen, row = read(cog())
+    arcs = arcs_of(row)
+    moved = {arcs[1]: 2, arcs[4]: -3}  # points by which the nodes before two arcs are off
+    begins = [s.begin + moved.get(k, 0) for k, s in enumerate(row.found)]
+    ends = [*begins[1:], row.found[-1].end]
+    parts = zip(row.found, begins, ends, strict=True)
+    found = tuple(Segment(i, j, s.kind) for s, i, j in parts)
+    own, exact = list(rows_repeated(seen, with_free(row._replace(found=found), {arcs[6]})))[:2]
+    n = len(seen.points)
+    places = [{(s.begin + one.first) % n for s in one.found} for one in (own, exact, row)]
+    assert places[1] == places[2]
+    assert len(places[0] - places[2]) == 2
+
+
+@pytest.mark.slow
+def test_the_teeth_of_the_studios_gear_are_alike():
+    pixels = np.array(Image.open(BytesIO(example_bytes("gear"))).convert("L"))
+    outer, *_ = ss.trace(pixels)
+    fit = ss.fit_curve(outer)
+    kinds = "".join(piece.kind[0] for piece in fit.pieces)
+    # Three chords a flank, an arc for the head, one of the root.
+    assert kinds in 2 * ("lllallla" * 12)
 
 
 def test_what_has_no_images_is_left():
