@@ -47,7 +47,11 @@ def test_joints_of_clean_outlines_are_corners_or_smooth(all_outlines):
             continue  # rougher than the tolerance: lines take over, and turn as the data do
         fit = fit_curve(contour, tolerance=0.002 * contour.box_diagonal, effort="fast")
         turn = np.abs(np.degrees(turns(fit.pieces, closed=fit.closed)))
-        assert ((turn <= SMOOTH) | (turn >= CORNER)).all(), name
+        # Of a polygon that was drawn edges may meet at any angle: an aeroplane's at 1.8 degrees.
+        is_line = np.array([piece.kind == "line" for piece in fit.pieces])
+        edges = is_line & (np.roll(is_line, 1) if fit.closed else is_line)
+        edges = edges[-len(turn) :] & (fit.method == "drawn")
+        assert ((turn <= SMOOTH) | (turn >= CORNER) | edges).all(), name
 
 
 def test_a_polyline_drawn_with_lines_is_lines():

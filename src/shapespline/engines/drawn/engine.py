@@ -160,7 +160,8 @@ def _of_row(
         if other is None or other.model.row is not repeated_row:
             continue
         if best is None or _is_preferred(other, best):
-            best, as_read = other, True
+            best = other
+            as_read = as_read or free_runs(repeated_row) <= free_runs(model.row)
             break
     if best is None or not (best.told or is_short(best.model)):
         return None
