@@ -49,8 +49,8 @@ def test_joints_of_clean_outlines_are_corners_or_smooth(all_outlines):
         turn = np.abs(np.degrees(turns(fit.pieces, closed=fit.closed)))
         # Of a polygon that was drawn edges may meet at any angle: an aeroplane's at 1.8 degrees.
         is_line = np.array([piece.kind == "line" for piece in fit.pieces])
-        edges = is_line & (np.roll(is_line, 1) if fit.closed else is_line)
-        edges = edges[-len(turn) :] & (fit.method == "drawn")
+        edges = (is_line & np.roll(is_line, 1))[0 if fit.closed else 1 :]
+        edges &= fit.method == "drawn"
         assert ((turn <= SMOOTH) | (turn >= CORNER) | edges).all(), name
 
 
