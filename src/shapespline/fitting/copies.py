@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.engines.drawn import Observed
+from shapespline.fitting.across import MISSED, MOST_OUTLINES, WORSE_BY, WORSE_PART
 from shapespline.fitting.verify import verified_fit
 from shapespline.geometry import (
     backwards,
@@ -36,12 +37,8 @@ if TYPE_CHECKING:
 
 # Places of an outline that are compared; an outline of fewer points tells no copies.
 PLACES, FEWEST_POINTS = 1024, 12
-# Copies miss each other by at most so many deviations; their lengths differ by less than this part.
-# A curve tells the points of others as well if root mean square and largest distance grow by no
-# more than these allow (DRA-31).
-MISSED, LENGTHS, WORSE_PART, WORSE_BY = 6.0, 0.01, 1.5, 0.7
-# Each is compared with each that is no copy: of more outlines than these nothing is looked for.
-MOST_OUTLINES = 300
+# Lengths of copies differ by less than this part (DRA-31).
+LENGTHS = 0.01
 
 
 class _Motion(NamedTuple):
@@ -63,11 +60,6 @@ class _Seen:
         return self.fit.contour
 
     @cached_property
-    def length(self) -> float:
-        """Of the outline."""
-        return float(self.contour.arc_length[-1])
-
-    @cached_property
     def centre(self) -> FloatArray:
         """Of the line, not of the area that it encloses."""
         polyline = self.contour.polyline
@@ -77,9 +69,9 @@ class _Seen:
     @cached_property
     def places(self) -> ComplexArray:
         """About the centre."""
-        at = np.arange(PLACES) * (self.length / PLACES)
-        x, y = (np.interp(at, self.contour.arc_length, c) for c in self.contour.polyline.T)
-        return (x - self.centre[0]) + 1j * (y - self.centre[1])
+        at = np.linspace(0.0, self.contour.length, PLACES, endpoint=False)
+        x, y = (self.contour.at(at) - self.centre).T
+        return x + 1j * y
 
     @cached_property
     def spectrum(self) -> ComplexArray:
@@ -173,9 +165,9 @@ def _copy(head: _Seen, other: _Seen, motion: _Motion, tolerance: float | None) -
 
 def _motion(head: _Seen, other: _Seen) -> _Motion | None:
     """The move, turn by right angles or mirror that maps one onto the other; None if none does."""
-    if abs(head.length - other.length) > LENGTHS * head.length:
+    if abs(head.contour.length - other.contour.length) > LENGTHS * head.contour.length:
         return None
-    near = MISSED * max(head.deviation, other.deviation) + 0.5 * head.length / PLACES
+    near = MISSED * max(head.deviation, other.deviation) + 0.5 * head.contour.length / PLACES
     squares = float((abs(head.places) ** 2).sum() + (abs(other.places) ** 2).sum())
     for is_mirror in (False, True):
         # A mirror image at the first axis, run through backwards: its spectrum is the conjugate.

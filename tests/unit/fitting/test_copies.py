@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests.support.shapes import moved
 
 import shapespline as ss
 from checks import two_sided
@@ -25,10 +26,6 @@ def letter(begin=0.0):
 def lobed():
     t = 2 * np.pi * np.arange(150) / 150
     return (10 + 2 * np.cos(3 * t))[:, None] * np.column_stack([np.cos(t), 0.8 * np.sin(t)])
-
-
-def moved(points, x, y):
-    return points + np.array([x, y])
 
 
 def drawn(outlines, **options):
@@ -77,7 +74,7 @@ def test_letters_of_a_word_are_one_letter_in_several_places():
 
 @pytest.mark.parametrize("linear", [QUARTER, -np.eye(2), MIRROR, QUARTER @ MIRROR])
 def test_copies_may_be_turned_by_right_angles_and_mirrored(linear):
-    image = moved(letter(0.4) @ linear.T, 60, 5)
+    image = moved(letter(0.4) @ linear.T, shift=(60, 5))
     image = image[::-1] if np.linalg.det(linear) < 0 else image
     drawing = drawn([letter(), image])
     assert equal_ones(drawing) == [(0, 1)]
@@ -93,15 +90,15 @@ def test_copies_may_be_turned_by_right_angles_and_mirrored(linear):
 
 
 def test_what_is_not_equal_stays_as_it_was():
-    larger = moved(1.008 * letter(0.2), 50, 0)
+    larger = moved(1.008 * letter(0.2), shift=(50, 0))
     bent = letter(0.2) + np.column_stack([np.zeros(200), 0.1 * np.sin(letter(0.2)[:, 0] / 3)])
-    drawing = drawn([letter(), larger, moved(bent, 100, 0)])
+    drawing = drawn([letter(), larger, moved(bent, shift=(100, 0))])
     assert equal_ones(drawing) == []
 
 
 @pytest.mark.parametrize("options", [{"regularities": None}, {"character": "fewest"}])
 def test_copies_are_a_regularity(options):
-    outlines = [lobed(), np.roll(moved(lobed(), 31.7, 2), 40, axis=0)]
+    outlines = [lobed(), np.roll(moved(lobed(), shift=(31.7, 2)), 40, axis=0)]
     assert equal_ones(drawn(outlines)) == [(0, 1)]
     drawing = drawn(outlines, **options)
     assert drawing.regularities == ()
@@ -110,7 +107,7 @@ def test_copies_are_a_regularity(options):
 
 
 def test_copies_of_one_smooth_spline():
-    drawing = drawn([lobed(), moved(np.roll(lobed(), 40, axis=0), 31.7, 2)], tolerance=None)
+    drawing = drawn([lobed(), moved(np.roll(lobed(), 40, axis=0), shift=(31.7, 2))], tolerance=None)
     assert equal_ones(drawing) == [(0, 1)]
     first, second = drawing
     way = second.spline.control_points - first.spline.control_points

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.engines.drawn.segments import FREE, Segment
+from shapespline.engines.drawn.symmetry import way_round
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -99,8 +100,7 @@ def _parts(seen: Observed, row: Segments) -> list[_Part]:
     middle = places.mean()
     places -= middle
     reach = max(OFF_PART * float(np.ptp(row.points, axis=0).max()), OFF_DEVIATIONS * seen.deviation)
-    x, y = places.real, places.imag
-    way = 1.0 if float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) > 0 else -1.0
+    way = way_round(row.points)
 
     def turns(order: int, every: int) -> bool:
         images = _at(row, at[::every] + total / order) - middle

@@ -47,7 +47,7 @@ def symmetries(
             if n % step or kinds != kinds[step:] + kinds[:step]:
                 continue
             order = n // step
-            angle = 2 * pi / order * _way_round(model)
+            angle = 2 * pi / order * way_round(model.row.points)
             middle = points.mean(axis=0)
             off = _across(model, _turned(points - middle, angle) + middle, step)
             if off > reach:
@@ -109,8 +109,9 @@ def _kept(
     return not bad
 
 
-def _way_round(model: Model) -> float:
-    x, y = model.row.points.T
+def way_round(points: FloatArray) -> float:
+    """1 if a closed outline, its first point at its end too, turns left, else -1."""
+    x, y = points.T
     return 1.0 if float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) > 0 else -1.0
 
 
