@@ -66,6 +66,21 @@ TEST(the_deviation_encloses_the_largest_sampled_distance) {
         }
 }
 
+TEST(passes_that_retrace_each_other_are_as_far_as_one) {
+    std::mt19937 random(14);
+    const Curve curve(random, 3);
+    const auto once = random_walk(random, 30, 0.3);
+    const auto one = curve_deviation(curve.knots, curve.points, once, 1e-3, 0.0);
+    auto often = once;
+    for (int pass = 0; pass < 50; ++pass) {
+        for (std::size_t k = once.size() - 1; k-- > 0;) often.push_back(once[k]);
+        often.insert(often.end(), once.begin() + 1, once.end());
+    }
+    const auto all = curve_deviation(curve.knots, curve.points, often, 1e-3, 0.0);
+    CHECK_NEAR(all.lower, one.lower, 1e-12);
+    CHECK(all.upper <= all.lower * (1.0 + 1e-3) * (1.0 + 1e-12));
+}
+
 TEST(nearest_points_are_no_farther_than_any_sample) {
     std::mt19937 random(12);
     for (int degree = 1; degree <= 5; ++degree) {

@@ -40,13 +40,17 @@ class DeviationSearch {
         std::vector<const Bezier<Degree> *> open;
         std::vector<Stop> stops;
         stops.reserve(pieces.size() * (kFirstLook + 1));
+        std::size_t hint = 0;
         for (const Bezier<Degree> &piece : pieces) {
-            const Stop begin = look(piece, 0.0);
+            const Stop begin = look(piece, 0.0, hint);
+            hint = begin.segment;
             if (lies_along(begin.segment, piece)) continue;
             open.push_back(&piece);
             stops.push_back(begin);
-            for (int i = 1; i <= kFirstLook; ++i)
-                stops.push_back(look(piece, static_cast<double>(i) / kFirstLook));
+            for (int i = 1; i <= kFirstLook; ++i) {
+                stops.push_back(look(piece, static_cast<double>(i) / kFirstLook, hint));
+                hint = stops.back().segment;
+            }
         }
         for (std::size_t i = 0; i < open.size(); ++i)
             refine(*open[i], std::span(stops).subspan(i * (kFirstLook + 1), kFirstLook + 1), 0);
@@ -66,10 +70,9 @@ class DeviationSearch {
     // two: pieces are halved.
     static constexpr int kFirstLook = Degree == 1 ? 1 : 16, kMaxDepth = 48;
 
-    Stop look(const Bezier<Degree> &piece, double s) {
+    Stop look(const Bezier<Degree> &piece, double s, std::size_t hint) {
         const Vec2 point = piece.at(s).point;
-        const auto near = polyline_.nearest(point, hint_);
-        hint_ = near.segment;
+        const auto near = polyline_.near_enough(point, hint, 0.25 * result_.lower * result_.lower);
         const double distance = std::sqrt(near.distance_sq);
         if (distance > result_.lower) {
             result_.lower = distance;
@@ -132,14 +135,13 @@ class DeviationSearch {
             refine(right, stops.subspan(middle), depth + 1);
             return;
         }
-        const std::array<Stop, 3> halved{begin, look(piece, 0.5), end};
+        const std::array<Stop, 3> halved{begin, look(piece, 0.5, begin.segment), end};
         refine(left, std::span(halved).first(2), depth + 1);
         refine(right, std::span(halved).last(2), depth + 1);
     }
 
     const Polyline &polyline_;
     double relative_gap_, floor_;
-    std::size_t hint_ = 0;
     Deviation result_{0.0, 0.0, 0.0};
 };
 

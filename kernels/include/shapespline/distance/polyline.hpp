@@ -53,6 +53,18 @@ class Polyline {
         return best;
     }
 
+    // The nearest of the hint and the segments after it where that is near enough: where an outline
+    // is retraced thousands of times, the tree looks at every pass.
+    Nearest near_enough(Vec2 p, std::size_t hint, double enough_sq) const {
+        Nearest best{std::numeric_limits<double>::infinity(), hint};
+        const std::size_t end = std::min(hint + kWalk, n_segments());
+        for (std::size_t segment = hint; segment < end; ++segment) {
+            const double d = distance_sq(p, segment);
+            if (d < best.distance_sq) best = {d, segment};
+        }
+        return best.distance_sq <= enough_sq ? best : nearest(p, best.segment);
+    }
+
     // Calls visit(segment) for all that may come nearer to a box than a distance.
     template <class Visit>
     void visit_near(const Box &box, double distance_sq, Visit &&visit) const {
@@ -60,6 +72,9 @@ class Polyline {
     }
 
   private:
+    // The hint and so many less one after it (KER-09).
+    static constexpr std::size_t kWalk = 8;
+
     std::span<const Vec2> vertices_;
     BoxTree tree_;
 };
