@@ -25,7 +25,7 @@ struct CircleFit {
 
 inline LineFit fit_line(const CentralMoments &m) {
     const double half = 0.5 * (m.xx + m.yy), apart = 0.5 * (m.xx - m.yy);
-    const double root = std::hypot(apart, m.xy);
+    const double root = std::sqrt(apart * apart + m.xy * m.xy);
     // The eigenvector of the larger eigenvalue, from the row with the larger entries.
     Vec2 along = apart >= 0.0 ? Vec2{apart + root, m.xy} : Vec2{m.xy, root - apart};
     const double length = norm(along);

@@ -73,7 +73,8 @@ class Segmentation {
     std::vector<DrawnPiece> run() {
         for (State &state : states_[0]) state.cost = 0.0;
         for (std::size_t i = 0; i + 1 < n_; ++i) {
-            if (!reached(i)) continue;
+            least_ = states_[i][best_at(i)].cost;
+            if (least_ == kNever) continue;
             extend_primitives(i);
             if (is_candidate_[i]) extend_free(i);
         }
@@ -122,11 +123,6 @@ class Segmentation {
         is_candidate_[0] = is_candidate_[n_ - 1] = 1;
         for (std::size_t i = 0; i < n_; ++i)
             if (is_candidate_[i] && may_be_node_[i]) candidates_.push_back(i);
-    }
-
-    bool reached(std::size_t i) const {
-        return std::any_of(states_[i].begin(), states_[i].end(),
-                           [](const State &state) { return state.cost < kNever; });
     }
 
     // The points that count of a piece between two nodes: of short ones more.
@@ -188,9 +184,11 @@ class Segmentation {
         const LineFit line = fit_line(central);
         const double rest = uncounted(i, j, central.weight) + more;
         const double of_line = 0.5 * precision_ * line.sum_sq;
-        Vec2 along = line.direction;
-        if (dot(along, points_[j] - points_[i]) < 0.0) along = -1.0 * along;
-        offer(i, j, kLine, of_line + rest + 2.0 * price, along, along);
+        if (may_gain(j, kLine, of_line + rest + 2.0 * price)) {
+            Vec2 along = line.direction;
+            if (dot(along, points_[j] - points_[i]) < 0.0) along = -1.0 * along;
+            offer(i, j, kLine, of_line + rest + 2.0 * price, along, along);
+        }
         double least = of_line;
         if (of_line > price && last - first + 1 >= kFewest) {
             const CircleFit circle = fit_circle(central);
@@ -221,6 +219,7 @@ class Segmentation {
         const double unit = std::max(s_[n_ - 1] - s_[i], 1e-300) / 8.0;
         GrowingQuintic quintic(points_[first], s_[first], unit);
         std::size_t added = first;  // the next point to add
+        double misfit = 0.0;
         int hopeless = 0;
         auto at = std::upper_bound(candidates_.begin(), candidates_.end(), i);
         for (; at != candidates_.end() && hopeless < 3; ++at) {
@@ -228,14 +227,22 @@ class Segmentation {
             if (last < first + GrowingQuintic::kTerms + 1) continue;
             for (; added <= last; ++added)
                 quintic.add(points_[added], s_[added], weights_[added]);
-            const FreeForm found = quintic.solved(s_[i], s_[j]);
             const double weight = moments_.weight(first, last);
-            const double misfit = 0.5 * precision_ * found.sum_sq;
-            const double rest = uncounted(i, j, weight) + more;
-            offer(i, j, kFree, misfit + rest + settings_.free_parameters * settings_.price,
-                  found.begin, found.end);
+            const double rest = uncounted(i, j, weight) + more +
+                                settings_.free_parameters * settings_.price;
+            // Misfit grows with the points.
+            if (may_gain(j, kFree, misfit + rest)) {
+                const FreeForm found = quintic.solved(s_[i], s_[j]);
+                misfit = 0.5 * precision_ * found.sum_sq;
+                offer(i, j, kFree, misfit + rest, found.begin, found.end);
+            }
             hopeless = misfit - 0.5 * weight > limit_ ? hopeless + 1 : 0;
         }
+    }
+
+    // Whether a piece from the node where the search stands may be the cheapest of its kind.
+    bool may_gain(std::size_t j, Kind kind, double own) const {
+        return least_ + own < states_[j][kind].cost;
     }
 
     // A piece behind each of the states of its first node.
@@ -285,7 +292,7 @@ class Segmentation {
     PrefixMoments moments_;
     std::size_t n_;
     std::vector<std::array<State, kKinds>> states_;
-    double precision_ = 0.0, limit_ = 0.0;
+    double precision_ = 0.0, limit_ = 0.0, least_ = 0.0;
     std::array<Beside, 2> near_;
     std::vector<char> is_candidate_, may_be_node_, corner_behind_;
     std::vector<std::size_t> candidates_;
