@@ -12,7 +12,6 @@ from shapespline.engines.drawn import (
     DrawnArc,
     DrawnLine,
     FreeRun,
-    as_drawn,
     simplified,
 )
 from shapespline.engines.pieces import MirroredHalf
@@ -55,18 +54,11 @@ class DrawnPieces:
 
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
         """One curve, if the data tell of lines and arcs; a simpler one too, if asked for."""
-        contour, style = problem.contour, problem.request.style
+        style = problem.request.style
         within = problem.tolerance if self.shown is None else self.shown.band
         normalized = problem.upright
         scale = normalized.scale
-        accuracy = None if contour.level_line is None else contour.accuracy
-        found = as_drawn(
-            problem.seen,
-            None if accuracy is None else accuracy * scale,
-            style.regularities,
-            np.inf if self.shown is not None else within * scale,
-            holds_ends=problem.request.constraints.ends,
-        )
+        found = problem.as_drawn
         if found is None or monitor.ended:
             return
         # A whole circle is its own mirror image.

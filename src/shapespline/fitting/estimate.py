@@ -385,5 +385,9 @@ class InBand:
 
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
         """One curve."""
-        found = self.ask(Problem(replace(problem.request, goal=Within(self.band))), monitor).fit
+        request = replace(problem.request, goal=Within(self.band))
+        if request.style.character == "drawn" and problem.as_drawn is None:
+            # Nor is anything drawn within a tolerance where nothing is without one (DRA-32).
+            request = replace(request, style=replace(request.style, character="fewest"))
+        found = self.ask(Problem(request), monitor).fit
         yield Candidate(method=found.method, pieces=found.sections, spline=found.spline)

@@ -5,11 +5,15 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from shapespline.analysis import NormalizedContour, filled, has_straight_runs
+from shapespline.engines.drawn import as_drawn
 from shapespline.engines.pieces import PiecesProblem
 from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
+    from shapespline.engines.drawn import Drawn
     from shapespline.fitting.request import Request
     from shapespline.values import Contour
 
@@ -78,6 +82,19 @@ class Problem:
         if self._dense is self.request.contour:
             return self.upright.contour
         return self.upright.taken_over(self._dense)
+
+    @cached_property
+    def as_drawn(self) -> Drawn | None:
+        """What the points tell as lines and arcs, within the tolerance where there is one."""
+        request, scale = self.request, self.upright.scale
+        accuracy = None if self.contour.level_line is None else self.contour.accuracy
+        return as_drawn(
+            self.seen,
+            None if accuracy is None else accuracy * scale,
+            request.style.regularities,
+            np.inf if request.tolerance is None else request.tolerance * scale,
+            holds_ends=request.constraints.ends,
+        )
 
     @property
     def has_corners(self) -> bool:
