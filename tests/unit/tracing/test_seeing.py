@@ -43,6 +43,21 @@ def test_uneven_light_is_found_and_told(light):
     assert counted(trace(lit(light), local="off", min_area=10)) != expected
 
 
+def test_grain_on_soft_level_edges_is_no_uneven_light():
+    from scipy.ndimage import gaussian_filter
+
+    image = np.full((160, 200), 255.0)
+    image[40:120, 30:170] = 0
+    image[[39, 120], 30:170] = 128  # which grain lets the level line cross again and again
+    grain = np.random.default_rng(3).normal(0, 12.0, image.shape)
+    image = np.clip(20 + 0.8 * gaussian_filter(image, 1.2) + grain, 0, 255)
+    shape = trace(np.rint(image).astype(np.uint8))
+    assert len(shape) == 1
+    low, high = shape.contours[0].points.min(axis=0), shape.contours[0].points.max(axis=0)
+    # Edges at 30, 170 and half-way through rows 39 and 120; four deviations of grain over a slope.
+    assert np.abs(np.concatenate([low, high]) - [30, 39.5, 170, 120.5]).max() < 4 * 0.2
+
+
 def test_a_window_does_the_same_where_it_always_shows_ground():
     image = lit(LIGHTS["from the left"], noise=0.0)
     assert counted(trace(image, polarity="dark", local=80, min_area=6)) == (9, 4)
