@@ -198,7 +198,7 @@ def rendered_back(drawing: ss.Drawing, picture: Image.Image) -> float:
                 0, (width, height))
         for fit in drawing
     ]  # fmt: skip
-    keys, part = border_coverage(outlines, height, width)
+    keys, part, _ = border_coverage(outlines, height, width)
     seen = 1.0 - np.asarray(black_on_white(picture), dtype=float) / 255.0
     ours = np.rint(seen).ravel()
     ours[keys] = part

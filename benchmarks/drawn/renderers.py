@@ -1,4 +1,4 @@
-"""Pictures of drawings: exact coverage, Cairo, a browser, JPEG. Black on white, 8 bits."""
+"""Pictures of drawings, 8 bits: exact coverage, Cairo, a browser, JPEG, scans."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PIL import Image
+from scipy.ndimage import gaussian_filter
 
 from benchmarks.drawn.truth import Cubic, Line
 
@@ -37,6 +38,13 @@ def jpeg(picture: Picture, quality: int = 90) -> Picture:
     stream = io.BytesIO()
     Image.fromarray(picture).save(stream, "JPEG", quality=quality)
     return np.asarray(Image.open(stream))
+
+
+def scanned(outlines: Sequence[Outline], size: int, blur: float, grain: float) -> Picture:
+    """Dark grey on light grey, spread by a lens (pixels), under grain (of 255)."""
+    sharp = 20 + 0.8 * exact(outlines, size).astype(float)
+    noise = np.random.default_rng(1).normal(0.0, grain, sharp.shape)
+    return np.rint(np.clip(gaussian_filter(sharp, blur) + noise, 0, 255)).astype(np.uint8)
 
 
 def by_cairo(outlines: Sequence[Outline], size: int) -> Picture:
@@ -145,4 +153,6 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "Cairo": by_cairo,
     "Chromium": by_browser,
     "JPEG 90": lambda outlines, size: jpeg(exact(outlines, size)),
+    "blurred": lambda outlines, size: scanned(outlines, size, blur=1.0, grain=0.5),
+    "scanned, JPEG 90": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.0, grain=8.0)),
 }

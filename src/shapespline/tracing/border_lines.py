@@ -119,7 +119,7 @@ def _colours(
     every, colours = [], []
     for label in sorted({ring.label for ring in found.rings}):
         own = [ring.outline(lines, found.arcs) for ring in found.rings if ring.label == label]
-        keys, part = border_coverage(own, height, width)
+        keys, part, _ = border_coverage(own, height, width)
         every.append(keys)
         colours.append(part[:, None] * palette.colors[label])
     unique, place = np.unique(np.concatenate(every), return_inverse=True)

@@ -1,20 +1,23 @@
 """Corners as they were drawn: put back where the sides that run into them meet.
 
 The square of a pixel averages a corner with the ground around it, so that every level line cuts it:
-a right angle by 0.42 pixels in the mean and 0.71 at most, an acute one by more. Beyond that the
-sides show undisturbed; lines or parabolas through them meet in the corner. It is taken if it lies
-no farther from the level line than the square can have cut off, and if the ink of the pixels around
-it adds up to that of the drawing with it: a rounding has less.
+a right angle by 0.42 pixels in the mean and 0.71 at most, an acute one by more, and a lens or a
+scanner by as much again for each pixel of blur. Beyond that the sides show undisturbed; lines or
+parabolas through them meet in the corner. It is taken if it lies no farther from the level line
+than square and blur can have cut off, and if the ink of the pixels around it adds up to that of the
+drawing with it: a rounding has less.
 """
 
 from __future__ import annotations
 
+from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from shapespline.tracing.coverage import border_coverage
 from shapespline.tracing.sides import (
+    BLURRED,
     DISTURBED,
     NONE,
     SAME_CORNER,
@@ -27,22 +30,28 @@ from shapespline.tracing.sides import (
     stations_of,
     turns_of,
 )
+from shapespline.tracing.softness import SHARP
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from shapespline.tracing.field import Field
     from shapespline.tracing.sides import Corners
+    from shapespline.tracing.softness import Softness
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # Angle between the sides, degrees, and the farthest that the level line of a drawing can be from
 # the corner, pixels: measured over all directions and places, area coverage.
 ANGLES = (0.0, 15.0, 20.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 135.0, 150.0, 165.0, 180.0)
 CUT_OFF = (4.0, 3.9, 2.95, 2.03, 1.49, 1.22, 0.93, 0.715, 0.55, 0.42, 0.315, 0.223, 0.154, 0.05)
+# The same for a blur, in its deviations, beside: half of it around a wedge is ink there (TRC-20).
+CUT_OFF_BLURRED = (8.0, 5.17, 3.88, 2.61, 1.74, 1.29, 0.99, 0.77, 0.6, 0.45, 0.33, 0.21, 0.11, 0.0)
 # Pixels on either side of a corner whose ink is added up. No more of it may be missing, or be too
 # much, than a rounding of this radius takes or a tip of this length has, and this many square
-# pixels.
-AROUND, ROUNDING, TIP, UNCERTAIN = 3, 0.5, 1.5, 0.03
+# pixels; so many more for each pixel of blur, as the blur is not known exactly (TRC-20).
+AROUND, ROUNDING, TIP, UNCERTAIN, UNCERTAIN_BLUR = 3, 0.5, 1.5, 0.03, 0.25
+# Corners whose ink is added up at once.
+TOGETHER = 10_000
 # From which sides corners are looked for: how far they are disturbed, and how far they go.
 LOOKS = (*((disturbed, SIDE) for disturbed in DISTURBED), (DISTURBED[0], SHORT_SIDE))
 # Shorter outlines have no sides that show undisturbed.
@@ -54,6 +63,7 @@ def sharpened(
     level_lines: Sequence[FloatArray],
     drawn: Sequence[bool],
     field: Field,
+    soft: Softness,
 ) -> list[FloatArray]:
     """Outlines with the corners that the picture shows; all others as they are.
 
@@ -66,14 +76,16 @@ def sharpened(
     drawn : sequence of bool
         Which of them the grey of the picture told; the others keep the corners that they have.
     field : Field
+    soft : Softness
     """
-    noise = field.noise * (2 * AROUND + 1)
+    reach = AROUND + round(soft.blur)
+    uncertain = UNCERTAIN + UNCERTAIN_BLUR * soft.blur + 3 * field.noise * (2 * reach + 1)
 
     def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
-        missing = _missing(corners.points, tried, field)
-        return np.abs(missing) <= UNCERTAIN + rounded_off(corners) + 3 * noise
+        missing = _missing(corners.points, tried, field, soft.blur, reach)
+        return np.abs(missing) <= uncertain + rounded_off(corners)
 
-    return put_back(outlines, level_lines, drawn, [True] * len(outlines), fit)
+    return put_back(outlines, level_lines, drawn, [True] * len(outlines), fit, soft)
 
 
 def put_back(
@@ -82,6 +94,7 @@ def put_back(
     drawn: Sequence[bool],
     closed: Sequence[bool],
     fit: Callable[[Corners, Sequence[FloatArray]], BoolArray],
+    soft: Softness = SHARP,
 ) -> list[FloatArray]:
     """Outlines and open lines with the corners that fit the picture.
 
@@ -95,6 +108,7 @@ def put_back(
     closed : sequence of bool
     fit : callable
         Which corners fit the picture, of some and the lines with them.
+    soft : Softness
     """
     long = [length >= SHORTEST_OUTLINE for length in map(length_of, lines)]
     used = np.flatnonzero(np.array(drawn, dtype=bool) & np.array(long))
@@ -102,13 +116,13 @@ def put_back(
         return list(lines)
     chosen = used.tolist()
     ways = Ways([lines[k] for k in chosen], [closed[k] for k in chosen])
-    turns = turns_of(ways)
-    corners = NONE
+    turns = turns_of(ways, soft)
+    corners, most = NONE, np.array(CUT_OFF) + soft.blur * np.array(CUT_OFF_BLURRED)
     for disturbed, side in LOOKS:
-        found = meetings(ways, turns, disturbed, side)
+        found = meetings(ways, turns, disturbed, side, soft)
         found = found._replace(own=used[found.own])
         far = _distances(found.points, found.own, level_lines, closed)
-        cut_off = np.interp(np.degrees(np.pi - found.turns), ANGLES, CUT_OFF)
+        cut_off = np.interp(np.degrees(np.pi - found.turns), ANGLES, most)
         found = corners.joined(found.chosen((far <= cut_off) & _away(found, corners)))
         if len(found.points) > len(corners.points):
             corners = found.chosen(fit(found, _with_corners(lines, found, closed)))
@@ -202,25 +216,40 @@ def _with(points: FloatArray, corners: Corners, ring: bool) -> FloatArray:
     return np.concatenate([points[kept], corners.runs.reshape(-1, 2)])[order]
 
 
-def around(at: FloatArray, size: tuple[int, ...]) -> tuple[IntArray, IntArray, BoolArray]:
-    """Rows and columns of pixels around places, shape (n, 7, 7), and which are in the picture."""
+def around(
+    at: FloatArray, size: tuple[int, ...], reach: int = AROUND
+) -> tuple[IntArray, IntArray, BoolArray]:
+    """Rows and columns of pixels around places, square, and which are in the picture."""
     height, width = size
     column = np.floor(at[:, 0]).astype(np.int64)
     row = np.floor(height - at[:, 1]).astype(np.int64)
-    offsets = np.arange(-AROUND, AROUND + 1)
+    offsets = np.arange(-reach, reach + 1)
     r, c = np.broadcast_arrays(
         row[:, None, None] + offsets[:, None], column[:, None, None] + offsets
     )
     return r, c, (r >= 0) & (r < height) & (c >= 0) & (c < width)
 
 
-def _missing(at: FloatArray, outlines: Sequence[FloatArray], field: Field) -> FloatArray:
-    """Ink around each corner that the picture has and the outlines do not, square pixels."""
+def _missing(
+    at: FloatArray, outlines: Sequence[FloatArray], field: Field, blur: float, reach: int
+) -> FloatArray:
+    """Ink around each corner that the picture has and blurred outlines do not, square pixels."""
+    from scipy.ndimage import gaussian_filter
+
     height, width = field.shape
-    keys, drawn = border_coverage(outlines, height, width)
-    r, c, inside = around(at, field.shape)
-    seen = field.coverage(r, c)
-    key = np.where(inside, r * width + c, -1)
-    place = np.minimum(np.searchsorted(keys, key), max(len(keys) - 1, 0))
-    ours = np.where(keys[place] == key, drawn[place], np.rint(np.clip(seen, 0, 1)))
-    return np.where(inside, seen - ours, 0.0).sum(axis=(1, 2))
+    keys, part, behind = border_coverage(outlines, height, width)
+    margin = ceil(BLURRED * blur)
+    shown = (slice(None), *(slice(margin, margin + 2 * reach + 1),) * 2)
+    missing = []
+    for some in np.array_split(at, len(at) // TOGETHER + 1):
+        r, c, inside = around(some, field.shape, reach + margin)
+        key = np.clip(r, 0, height - 1) * width + np.clip(c, 0, width - 1)
+        place = np.searchsorted(keys, key, "right") - 1
+        before = keys[np.maximum(place, 0)]
+        same_row = (place >= 0) & (before // width == key // width)
+        drawn = np.where(before == key, part[place], np.where(same_row, behind[place], 0.0))
+        if blur:
+            drawn = gaussian_filter(drawn, blur, axes=(1, 2), radius=margin)
+        more = field.ink(r[shown], c[shown]) - drawn[shown]
+        missing.append(np.where(inside[shown], more, 0.0).sum(axis=(1, 2)))
+    return np.concatenate(missing)

@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 
 def border_coverage(
     outlines: Sequence[FloatArray], height: int, width: int
-) -> tuple[IntArray, FloatArray]:
+) -> tuple[IntArray, FloatArray, FloatArray]:
     """Pixels on the border of the ink, row times width plus column, ascending; the part covered.
+
+    And what the pixels behind each in its row are covered by, up to the next one.
 
     Parameters
     ----------
@@ -32,9 +34,9 @@ def border_coverage(
     Examples
     --------
     >>> square = np.array([(0.5, 0.25), (2.0, 0.25), (2.0, 1.0), (0.5, 1.0)])
-    >>> keys, part = border_coverage([square], 1, 3)
-    >>> keys.tolist(), part.tolist()
-    ([0, 1, 2], [0.375, 0.75, 0.0])
+    >>> keys, part, behind = border_coverage([square], 1, 3)
+    >>> keys.tolist(), part.tolist(), behind.tolist()
+    ([0, 1, 2], [0.375, 0.75, 0.0], [0.75, 0.75, 0.0])
     """
     begins = np.concatenate(outlines)
     ends = np.concatenate([np.roll(points, -1, axis=0) for points in outlines])
@@ -51,7 +53,7 @@ def border_coverage(
     # From the start of its row: all edges before it, less those of the rows above.
     first = np.searchsorted(keys, keys // width * width)
     before = np.concatenate([[0.0], beyond])
-    return keys, before[:-1] - before[first] + partly
+    return keys, before[:-1] - before[first] + partly, beyond - before[first]
 
 
 def _cut(begins: FloatArray, ends: FloatArray, axis: int) -> tuple[FloatArray, FloatArray]:

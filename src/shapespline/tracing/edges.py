@@ -71,7 +71,7 @@ def drawn_shares(field: Field, found: Crossings, shares: FloatArray) -> Edges:
     even = EVEN + EVEN_NOISE * field.noise
     for chunk in np.array_split(np.arange(len(shares)), len(shares) // 100_000 + 1):
         part = found.chosen(chunk)
-        profiles = _profiles(field, part)
+        profiles = profiles_across(field, part)
         place = places_across(profiles, even)
         # A place counts pixels from the far end of the ground; half-way between the two centres
         # it is the REACH.
@@ -103,7 +103,7 @@ def places_across(profiles: FloatArray, even: float) -> FloatArray:
     return place
 
 
-def _profiles(field: Field, found: Crossings) -> FloatArray:
+def profiles_across(field: Field, found: Crossings) -> FloatArray:
     """Coverage across each crossing, from ground to ink, shape (n, 2 REACH)."""
     offsets = np.arange(1 - REACH, REACH + 1)
     row = found.row[:, None] + np.where(found.upright[:, None], offsets, 0)

@@ -32,13 +32,16 @@ class Field:
         Difference of the values of ink and ground, positive.
     noise : float
         Standard deviation of the values where the picture is even, as a part of the contrast.
+    middle : float
+        Half-way between the values of ink and ground: the cut lies beside it, where no pixel does.
     """
 
     values: Layer
     cut: float
     light: bool
     contrast: float
-    noise: float = 0.0
+    noise: float
+    middle: float
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -52,7 +55,14 @@ class Field:
 
     def coverage(self, row: IntArray, column: IntArray) -> FloatArray:
         """Part of pixels that is ink, 1/2 at the cut; outside the picture that of its rim."""
+        return self._over(row, column, self.cut)
+
+    def ink(self, row: IntArray, column: IntArray) -> FloatArray:
+        """The same, 0 on even ground and 1 on even ink."""
+        return self._over(row, column, self.middle)
+
+    def _over(self, row: IntArray, column: IntArray, half: float) -> FloatArray:
         height, width = self.shape
         row, column = np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)
-        excess = (self.values[row, column] - self.cut) / self.contrast
+        excess = (self.values[row, column] - half) / self.contrast
         return 0.5 + (excess if self.light else -excess)

@@ -8,7 +8,8 @@ import numpy as np
 
 from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
-from shapespline.tracing.edges import drawn_shares, level_shares
+from shapespline.tracing.edges import NOISIEST, drawn_shares, level_shares
+from shapespline.tracing.softness import Softness
 
 if TYPE_CHECKING:
     from shapespline.monitor import Say
@@ -26,6 +27,8 @@ CHORD = 2
 # Pixels, root mean square over traced glyphs and icons whose outlines are known: where the grey
 # tells the edge, where only the level does, and where there is no grey.
 DRAWN_ACCURACY, ACCURACY, ONE_BIT_ACCURACY = 0.02, 0.07, 0.25
+# In more noise than this, of the contrast, ink tells no corner from a rounding (TRC-20).
+NOISIEST_CORNER = 0.065
 # Part of an outline's points that have to be of a kind for it to be of that kind; steps of one
 # pixel that a drawing of edges along rows and columns has at most.
 MOST, FEW_STEPS = 0.5, 4
@@ -54,6 +57,7 @@ def drawn_lines(
     midway = np.abs(level_shares(field, part) - 0.5) < 1e-9
     outlines, level_lines, accuracies = [], [], []
     begin = 0
+    soft = Softness.of(field, part)
     for loop in loops:
         own = slice(begin, begin + len(loop))
         begin += len(loop)
@@ -72,10 +76,12 @@ def drawn_lines(
         points = distinct(_with_rim_corners(points, height, width))
         outlines.append(points if len(points) >= 3 else level_line)
         level_lines.append(level_line)
-        accuracies.append(accuracy)
-    drawn = [accuracy == DRAWN_ACCURACY for accuracy in accuracies]
+        accuracies.append(max(accuracy, soft.scatter) if accuracy == ACCURACY else accuracy)
+    # Edges that noise alone leaves on the level line have corners, too (TRC-20).
+    noisy = NOISIEST < field.noise <= NOISIEST_CORNER and soft.scatter > 0
+    drawn = [a == DRAWN_ACCURACY or (noisy and a != ONE_BIT_ACCURACY) for a in accuracies]
     say(f"looking for the corners of {len(outlines)} outlines")
-    outlines = sharpened(outlines, level_lines, drawn, field)
+    outlines = sharpened(outlines, level_lines, drawn, field, soft)
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
 
 

@@ -140,7 +140,10 @@ def cut_field(values: Layer, light: bool, level: float | None = None) -> Field:
     """Values cut where ink and ground part."""
     found = picture_level(values, level)
     contrast = found.light - found.dark
-    return Field(values, found.cut, light, contrast, noise_deviation(values, contrast) / contrast)
+    noise = noise_deviation(values, contrast) / contrast
+    # A level that was asked for is half-way to what is drawn.
+    middle = 0.5 * (found.dark + found.light) if level is None else found.cut
+    return Field(values, found.cut, light, contrast, noise, middle)
 
 
 def cropped(pixels: NDArray[Any], crop: str | Sequence[int] | None) -> NDArray[Any]:

@@ -10,9 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.tracing.softness import SHARP
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from shapespline.tracing.softness import Softness
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # A turn of more, between chords that begin and end so many pixels before and behind.
@@ -27,9 +30,15 @@ SHORT_SIDE = 3.5
 # next to it see the corner, and what the other side's square reaches over. Where that leaves no
 # side, less is tried: the level line turns before an acute corner, and all is counted from there.
 DISTURBED, SQUARE, LEAST_DISTURBED = (0.75, 1.25, 1.75, -0.5), 0.5, 0.5
+# A blur disturbs what has the other side within so many of its deviations; of sides that meet in
+# tips no farther than of this turn (TRC-20).
+BLURRED, MOST_TURN = 2.5, np.radians(150.0)
 # Root mean square distance in pixels of a side to a line and a parabola. The line is taken where it
 # is not so many times worse.
 SMOOTH, TIE, TIE_FACTOR = 0.05, 0.004, 1.5
+# Of soft edges: for each pixel of blur, as parabolas through what is far from a corner lead astray;
+# and so many times their scatter sides may be off (TRC-20).
+TIE_BLURRED, SCATTERED = 0.01, 1.5
 SAMPLES, ROUNDS = 9, 4
 # Sides that are still farther apart (pixels) where they are nearest do not meet (TRC-13).
 MEET = 0.01
@@ -130,8 +139,10 @@ class Ways:
         return np.asarray(a + share[..., None] * (b - a))
 
 
-def meetings(ways: Ways, turns: Turns, disturbed: float, side: float = SIDE) -> Corners:
-    """Where the sides of ways meet, if they are disturbed as far as that.
+def meetings(
+    ways: Ways, turns: Turns, disturbed: float, side: float = SIDE, soft: Softness = SHARP
+) -> Corners:
+    """Where the sides of ways meet, if they are disturbed as far as that, and by a blur.
 
     Sides that are looked at less far than usual must show undisturbed all of it.
     """
@@ -139,12 +150,13 @@ def meetings(ways: Ways, turns: Turns, disturbed: float, side: float = SIDE) -> 
     if len(own) == 0:
         return NONE
     for _ in range(ROUNDS):
-        near = np.maximum(disturbed + SQUARE * np.tan(0.5 * turn), LEAST_DISTURBED)
+        spread = BLURRED * soft.blur / np.sin(np.clip(turn, 0.5 * np.pi, MOST_TURN))
+        near = np.maximum(disturbed + SQUARE * np.tan(0.5 * turn), LEAST_DISTURBED) + spread
         behind, ahead = _room(ways, own, at, near)
         sides, wide = [], np.full(len(at), np.inf)
         for room, sign in ((behind, -1.0), (ahead, 1.0)):
-            far = np.minimum(side, room)
-            sides.append(_side(ways, own, at, near, far, sign))
+            far = np.minimum(side + spread, room)
+            sides.append(_side(ways, own, at, near, far, sign, soft))
             wide = np.minimum(wide, far - near)
         runs, turn, off, apart = _meeting(sides[0][0], sides[1][0], near)
         at = at + np.clip(off, -SAME_CORNER, SAME_CORNER)
@@ -193,20 +205,20 @@ def _room(
     return at - before - left, after - at - right
 
 
-def turns_of(ways: Ways) -> Turns:
-    """Where ways turn most."""
+def turns_of(ways: Ways, soft: Softness = SHARP) -> Turns:
+    """Where ways turn most; corners of blurred ones take longer."""
     step = 0.25
     counts = np.ceil(ways.lengths / step).astype(np.int64)
     own = np.repeat(np.arange(len(counts)), counts)
     starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
     at = step * (np.arange(len(own)) - starts[own])
-    near, far = CHORD
+    near, far = np.array(CHORD) + soft.blur
     before = ways.at(own, at - near) - ways.at(own, at - far)
     after = ways.at(own, at + far) - ways.at(own, at + near)
     turn = _turn(before, after)
     # Nothing turns where a side leaves an open line.
     turn[~ways.closed[own] & ((at < far) | (at > ways.lengths[own] - far))] = 0.0
-    reach = round(SAME_CORNER / step)
+    reach = round((SAME_CORNER + soft.blur) / step)
     sharp = np.abs(turn)
     highest = sharp.copy()
     for shift in range(1, reach + 1):
@@ -248,6 +260,7 @@ def _side(
     near: FloatArray,
     far: FloatArray,
     sign: float,
+    soft: Softness,
 ) -> tuple[FloatArray, BoolArray]:
     """Polynomials of degree 2 in the distance from each corner, shape (k, 3, 2); which fit."""
     span = np.maximum(far - near, SHORTEST_SIDE)
@@ -255,12 +268,14 @@ def _side(
     seen = ways.at(np.broadcast_to(own[:, None], t.shape), at[:, None] + sign * t)
     line, line_off = _fitted(seen, 1)
     bent, bent_off = _fitted(seen, 2)
-    straight = line_off <= TIE_FACTOR * bent_off + TIE
+    tie = TIE + TIE_BLURRED * soft.blur + soft.scatter
+    straight = line_off <= TIE_FACTOR * bent_off + tie
     c0, c1, c2 = np.moveaxis(np.where(straight[:, None, None], line, bent), 1, 0)
     # From a share of the side to the distance from the corner.
     begin, unit = (near / span)[:, None], 1 / span[:, None]
     fitted = [c0 - begin * c1 + begin**2 * c2, unit * (c1 - 2 * begin * c2), unit**2 * c2]
-    return np.stack(fitted, axis=1), np.where(straight, line_off, bent_off) <= SMOOTH
+    off, most = np.where(straight, line_off, bent_off), SMOOTH + SCATTERED * soft.scatter
+    return np.stack(fitted, axis=1), off <= most
 
 
 def _fitted(seen: FloatArray, degree: int) -> tuple[FloatArray, FloatArray]:

@@ -133,7 +133,7 @@ def test_no_level_line_is_farther_from_a_corner_than_the_table_says(degrees):
     for turn in (0.0, np.radians(0.5 * degrees), *random.uniform(0, 2 * np.pi, 58)):
         corner = 0.5 * size + random.uniform(-0.5, 0.5, 2)
         outline = wedge(np.radians(degrees), turn, corner, size)
-        keys, part = border_coverage([outline], size, size)
+        keys, part, _ = border_coverage([outline], size, size)
         cover = np.array(
             [
                 [MplPath(outline).contains_point((c + 0.5, size - r - 0.5)) for c in rows]

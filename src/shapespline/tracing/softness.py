@@ -1,0 +1,83 @@
+"""Softness: how far a lens, a scanner or a resampling spread the edges of a picture, and its noise.
+
+The grey across a straight edge rises as a distribution does. Its variance is that of the blur, of
+the pixel's square and of the unit between two rows: read along a column that the edge crosses at an
+angle a to the row, (s^2 + 1/12) / cos^2 a + 1/12.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.tracing.edges import REACH, profiles_across
+
+if TYPE_CHECKING:
+    from shapespline.tracing.crossings import Crossings
+    from shapespline.tracing.field import Field
+
+# Edges that tell the blur: so many of them, that cross their row or column by this part of the
+# square of their slope; the two outermost pixels of ground and of ink are even, but for so many
+# deviations of the noise. They are so much of all, or nothing is known of the picture (TRC-20).
+ENOUGH, LEAST_ACROSS, EVEN, EVEN_NOISE, PLAIN = 100_000, 0.4, 0.02, 2.0, 0.2
+# Edges of less blur than this are those of a renderer: sharp.
+LEAST_BLUR = 0.5
+# Variance of a place within a pixel, and of a value between two pixels, of theirs: in the mean over
+# all places there.
+SQUARE, BETWEEN = 1 / 12, 2 / 3
+
+
+class Softness(NamedTuple):
+    """Standard deviations in pixels: of the blur, and of how noise scatters a level line.
+
+    Both are 0 where the grey does not tell.
+    """
+
+    blur: float = 0.0
+    scatter: float = 0.0
+
+    @classmethod
+    def of(cls, field: Field, found: Crossings) -> Softness:
+        """Of a picture, told by its edges."""
+        blur = _blur(field, found)
+        if blur is None:
+            return SHARP
+        # What noise is over the slope of an edge.
+        slope = 1.0 / np.sqrt(2 * np.pi * (blur**2 + SQUARE))
+        return cls(blur, field.noise * float(np.sqrt(BETWEEN) / slope))
+
+
+# Edges as a renderer draws them.
+SHARP = Softness()
+
+
+def _blur(field: Field, found: Crossings) -> float | None:
+    """0 where edges are sharp; None where too few are plain."""
+    part = found.chosen(np.flatnonzero(~found.at_rim(*field.shape)))
+    part = part.chosen(np.arange(0, len(part.row), len(part.row) // ENOUGH + 1))
+    profiles = profiles_across(field, part)
+    even = EVEN + EVEN_NOISE * field.noise
+    plain = (np.abs(profiles[:, :2]) <= even).all(axis=1)
+    plain &= (np.abs(profiles[:, -2:] - 1.0) <= even).all(axis=1)
+    before, behind = (
+        field.coverage(
+            part.row + np.where(part.upright, 0, side),
+            part.column + np.where(part.upright, side, 0),
+        )
+        for side in (-1, 1)
+    )
+    steps = np.diff(profiles, axis=1)
+    across, along = steps[:, REACH - 1], 0.5 * (behind - before)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = across**2 / (across**2 + along**2)  # cos^2 a
+    plain &= share >= LEAST_ACROSS
+    if not plain.sum() > PLAIN * len(plain):
+        return None
+    steps, share = steps[plain], share[plain]
+    at = np.arange(steps.shape[1])
+    total = steps.sum(axis=1)
+    middle = steps @ at / total
+    variance = (steps @ at**2 / total - middle**2 - SQUARE) * share - SQUARE
+    blur = float(np.sqrt(max(np.median(variance), 0.0)))
+    return blur if blur >= LEAST_BLUR else 0.0
