@@ -234,8 +234,6 @@ def _missing(
     at: FloatArray, outlines: Sequence[FloatArray], field: Field, blur: float, reach: int
 ) -> FloatArray:
     """Ink around each corner that the picture has and blurred outlines do not, square pixels."""
-    from scipy.ndimage import gaussian_filter
-
     height, width = field.shape
     keys, part, behind = border_coverage(outlines, height, width)
     margin = ceil(BLURRED * blur)
@@ -249,6 +247,8 @@ def _missing(
         same_row = (place >= 0) & (before // width == key // width)
         drawn = np.where(before == key, part[place], np.where(same_row, behind[place], 0.0))
         if blur:
+            from scipy.ndimage import gaussian_filter  # which takes a while to load
+
             drawn = gaussian_filter(drawn, blur, axes=(1, 2), radius=margin)
         more = field.ink(r[shown], c[shown]) - drawn[shown]
         missing.append(np.where(inside[shown], more, 0.0).sum(axis=(1, 2)))
