@@ -116,8 +116,14 @@ def uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], Fi
     if not pairs:
         return list(fits)
     found = _uncrossed(read, pairs, request, ask)
-    return [
+    apart = [
         reading.restored(*each) for reading, *each in zip(readings, fits, read, found, strict=True)
+    ]
+    if request.tolerance is not None:
+        return apart
+    return [
+        one if one.spline is fit.spline else _unasked(one)
+        for fit, one in zip(fits, apart, strict=True)
     ]
 
 
@@ -201,6 +207,20 @@ def _no_larger_than_data(fit: Fit, part: float = 1.0) -> Fit:
     return verified_fit(
         fit.contour, spline, tolerance=fit.tolerance, method=fit.method, sections=lines
     )
+
+
+def _unasked(fit: Fit) -> Fit:
+    """A fit of no tolerance, repaired within what it kept before: it keeps what it does now."""
+    again = verified_fit(
+        fit.contour,
+        fit.spline,
+        tolerance=None,
+        method=fit.method,
+        history=fit.history,
+        sections=fit.sections,
+    )
+    again = replace(again, outliers=fit.outliers)
+    return _told(again) if _crosses(fit) else again
 
 
 def _told(fit: Fit) -> Fit:

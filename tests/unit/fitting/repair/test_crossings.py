@@ -13,10 +13,14 @@ from tests.support.shapes import airfoil, ribbon
 
 import shapespline as ss
 from checks import polyline_of, self_crossings, two_sided
-from shapespline.fitting.repair.crossings import _no_larger_than_data
+from shapespline.fitting.repair.crossings import _no_larger_than_data, uncrossed
+from shapespline.fitting.request import Request
+from shapespline.fitting.settings import Settings
+from shapespline.fitting.solve import answer
 from shapespline.fitting.verify import verified_fit
 from shapespline.geometry.intersections import crossing_pairs
 from shapespline.geometry.joining import joined
+from shapespline.monitor import Monitor
 from shapespline.values.piece import Piece
 
 
@@ -113,3 +117,18 @@ def test_a_walk_that_is_nearly_all_corners_is_joined_by_lines_at_once():
     assert fit.kept
     assert self_crossings(line) <= self_crossings(fit.contour.polyline)
     assert len(asked) < 20
+
+
+def test_what_comes_apart_without_a_tolerance_keeps_what_it_has():
+    points, part = SLITS[0]
+    contour = ss.Contour(points[::-1], closed=True)  # read backwards, where sums round otherwise
+    searched = fit_pieces(contour, part * contour.box_diagonal)
+    loose = verified_fit(
+        contour, searched.spline, tolerance=None, method="sections", sections=searched.sections
+    )
+    request = Request.of(contour, None, Settings())
+    assert crossings(loose, loose.tolerance) > 0
+    (apart,) = uncrossed([loose], request, lambda asked: answer(asked, Monitor()))
+    assert crossings(apart, loose.tolerance) == 0
+    assert apart.status.value.startswith("no tolerance asked for")
+    assert apart.tolerance == max(apart.max_distance, apart.hausdorff_distance)
