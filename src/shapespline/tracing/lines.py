@@ -27,6 +27,9 @@ CHORD = 2
 # Pixels, root mean square over traced glyphs and icons whose outlines are known: where the grey
 # tells the edge, where only the level does, and where there is no grey.
 DRAWN_ACCURACY, ACCURACY, ONE_BIT_ACCURACY = 0.02, 0.07, 0.25
+# Noise has no bound as other errors of pictures have: it is allowed four deviations, these three
+# (TRC-20).
+UNBOUNDED = 4 / 3
 # In more noise than this, of the contrast, ink tells no corner from a rounding (TRC-20).
 NOISIEST_CORNER = 0.065
 # Part of an outline's points that have to be of a kind for it to be of that kind; steps of one
@@ -76,7 +79,9 @@ def drawn_lines(
         points = distinct(_with_rim_corners(points, height, width))
         outlines.append(points if len(points) >= 3 else level_line)
         level_lines.append(level_line)
-        accuracies.append(max(accuracy, soft.scatter) if accuracy == ACCURACY else accuracy)
+        if accuracy == ACCURACY:
+            accuracy = max(accuracy, UNBOUNDED * soft.scatter)
+        accuracies.append(accuracy)
     # Edges that noise alone leaves on the level line have corners, too (TRC-20).
     noisy = NOISIEST < field.noise <= NOISIEST_CORNER and soft.scatter > 0
     drawn = [a == DRAWN_ACCURACY or (noisy and a != ONE_BIT_ACCURACY) for a in accuracies]
