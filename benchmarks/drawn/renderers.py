@@ -153,6 +153,8 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "Cairo": by_cairo,
     "Chromium": by_browser,
     "JPEG 90": lambda outlines, size: jpeg(exact(outlines, size)),
-    "blurred": lambda outlines, size: scanned(outlines, size, blur=1.0, grain=0.5),
+    "blurred by 1": lambda outlines, size: scanned(outlines, size, blur=1.0, grain=0.5),
+    "blurred by 1.5": lambda outlines, size: scanned(outlines, size, blur=1.5, grain=0.5),
     "scanned, JPEG 90": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.0, grain=8.0)),
+    "badly scanned": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.2, grain=12.0)),
 }

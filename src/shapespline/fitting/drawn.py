@@ -58,7 +58,7 @@ class DrawnPieces:
         within = problem.tolerance if self.shown is None else self.shown.band
         normalized = problem.upright
         scale = normalized.scale
-        found = problem.as_drawn
+        found = problem.lines_and_arcs
         if found is None or monitor.ended:
             return
         # A whole circle is its own mirror image.

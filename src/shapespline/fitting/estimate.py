@@ -386,7 +386,7 @@ class InBand:
     def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
         """One curve."""
         request = replace(problem.request, goal=Within(self.band))
-        if request.style.character == "drawn" and problem.as_drawn is None:
+        if request.style.character == "drawn" and problem.lines_and_arcs is None:
             # Nor is anything drawn within a tolerance where nothing is without one (DRA-32).
             request = replace(request, style=replace(request.style, character="fewest"))
         found = self.ask(Problem(request), monitor).fit

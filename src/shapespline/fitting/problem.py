@@ -84,8 +84,8 @@ class Problem:
         return self.upright.taken_over(self._dense)
 
     @cached_property
-    def as_drawn(self) -> Drawn | None:
-        """What the points tell as lines and arcs, within the tolerance where there is one."""
+    def lines_and_arcs(self) -> Drawn | None:
+        """Lines, arcs and the rest that the points tell, within the tolerance if there is one."""
         request, scale = self.request, self.upright.scale
         accuracy = None if self.contour.level_line is None else self.contour.accuracy
         return as_drawn(

@@ -74,7 +74,8 @@ def sharpened(
     level_lines : sequence of ndarray
         The level line of each.
     drawn : sequence of bool
-        Which of them the grey of the picture told; the others keep the corners that they have.
+        Which of them lie where the picture's grey tells, or noise about it lets them; the others
+        keep the corners that they have.
     field : Field
     soft : Softness
     """

@@ -47,8 +47,8 @@ def part_along_nothing(field: Field, found: Crossings) -> float:
     part = found.chosen(inner[:: len(inner) // 200_000 + 1])
     offsets, row, column = np.arange(1 - REACH, REACH + 1), part.row[:, None], part.column[:, None]
     # Along rows and along columns: noise lets the line of a level edge cross both.
-    across = np.ptp(field.coverage(row + offsets, column + 0 * offsets), axis=1)
-    along = np.ptp(field.coverage(row + 0 * offsets, column + offsets), axis=1)
+    across = np.ptp(field.coverage(row + offsets, column), axis=1)
+    along = np.ptp(field.coverage(row, column + offsets), axis=1)
     return float((np.maximum(across, along) < EDGE).mean())
 
 

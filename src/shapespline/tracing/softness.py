@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 # square of their slope; the two outermost pixels of ground and of ink are even, but for so many
 # deviations of the noise. They are so much of all, or nothing is known of the picture (TRC-20).
 ENOUGH, LEAST_ACROSS, EVEN, EVEN_NOISE, PLAIN = 100_000, 0.4, 0.02, 2.0, 0.2
-# Edges of less blur than this are those of a renderer: sharp.
+# Edges of less blur than this are those of a renderer: sharp (TRC-20).
 LEAST_BLUR = 0.5
 # Variance of a place within a pixel, and of a value between two pixels, of theirs: in the mean over
 # all places there.
-SQUARE, BETWEEN = 1 / 12, 2 / 3
+WITHIN_PIXEL, BETWEEN_PIXELS = 1 / 12, 2 / 3
 
 
 class Softness(NamedTuple):
@@ -44,8 +44,8 @@ class Softness(NamedTuple):
         if blur is None:
             return SHARP
         # What noise is over the slope of an edge.
-        slope = 1.0 / np.sqrt(2 * np.pi * (blur**2 + SQUARE))
-        return cls(blur, field.noise * float(np.sqrt(BETWEEN) / slope))
+        slope = 1.0 / np.sqrt(2 * np.pi * (blur**2 + WITHIN_PIXEL))
+        return cls(blur, field.noise * float(np.sqrt(BETWEEN_PIXELS) / slope))
 
 
 # Edges as a renderer draws them.
@@ -78,6 +78,6 @@ def _blur(field: Field, found: Crossings) -> float | None:
     at = np.arange(steps.shape[1])
     total = steps.sum(axis=1)
     middle = steps @ at / total
-    variance = (steps @ at**2 / total - middle**2 - SQUARE) * share - SQUARE
+    variance = (steps @ at**2 / total - middle**2 - WITHIN_PIXEL) * share - WITHIN_PIXEL
     blur = float(np.sqrt(max(np.median(variance), 0.0)))
     return blur if blur >= LEAST_BLUR else 0.0

@@ -10,6 +10,7 @@ from tests.support.rendering import coverage, dark, polygon
 from tests.support.shapes import moved
 
 import shapespline as ss
+from shapespline.engines.drawn import as_drawn
 
 
 def rounded_box():
@@ -352,3 +353,19 @@ def test_a_few_noisy_points_are_no_edge_of_their_own(seed):
     noise = np.random.default_rng(seed).normal(0, deviation, points.shape)
     fit = ss.fit_curve(points + noise, closed=True)
     assert sorted(piece.kind for piece in fit.pieces) == ["arc", "line", "line", "line"]
+
+
+@pytest.mark.parametrize("tolerance", [None, 0.01])
+def test_lines_and_arcs_are_looked_for_once(monkeypatch, tolerance):
+    asked = []
+
+    def counted(*given, **named):
+        asked.append(given)
+        return as_drawn(*given, **named)
+
+    monkeypatch.setattr("shapespline.fitting.problem.as_drawn", counted)
+    turn = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    radius = 5 + np.sin(2 * turn) + 0.7 * np.cos(3 * turn)
+    points = np.column_stack([radius * np.cos(turn), radius * np.sin(turn)])
+    assert ss.fit_curve(points, closed=True, tolerance=tolerance).method != "drawn"
+    assert len(asked) == 1
