@@ -104,7 +104,7 @@ class Seeing:
             even = cut_field(evenly_lit(values, ink), ink)
             found_even = crossings(even, say)
             left = part_along_nothing(even, found_even)
-            if left <= least and (1 - left) * len(found_even.row) >= edges:
+            if left < least and (1 - left) * len(found_even.row) >= edges:
                 best, least = (even, found_even), left
         if best[0] is field:
             return best

@@ -58,6 +58,12 @@ def test_grain_on_soft_level_edges_is_no_uneven_light():
     assert np.abs(np.concatenate([low, high]) - [30, 39.5, 170, 120.5]).max() < 4 * 0.2
 
 
+def test_of_two_inks_that_tell_as_much_the_one_of_the_rim_is_taken():
+    ramp = np.tile(np.linspace(0, 255, 300).astype(np.uint8), (200, 1))
+    with pytest.warns(PictureWarning, match="unevenly lit"):
+        assert len(trace(ramp)) == 1
+
+
 def test_a_window_does_the_same_where_it_always_shows_ground():
     image = lit(LIGHTS["from the left"], noise=0.0)
     assert counted(trace(image, polarity="dark", local=80, min_area=6)) == (9, 4)
