@@ -97,24 +97,26 @@ class Seeing:
             return field, found
         # Where the light falls off, the rim does not show what the ground is.
         told = self.polarity != "auto"
-        best, least = (field, found), min(BETTER * astray, ALONG_NOTHING)
+        most = min(BETTER * astray, ALONG_NOTHING)
         edges = BETTER * (1 - astray) * len(found.row)
+        ways = []
         for ink in (light,) if told else (light, not light):
             say("looking for the light on the ground")
             even = cut_field(evenly_lit(values, ink), ink)
             found_even = crossings(even, say)
             left = part_along_nothing(even, found_even)
-            if left < least and (1 - left) * len(found_even.row) >= edges:
-                best, least = (even, found_even), left
-        if best[0] is field:
-            return best
+            if left <= most and (1 - left) * len(found_even.row) >= edges:
+                ways.append((left, len(found_even.row), (even, found_even)))
+        if not ways:
+            return field, found
         warnings.warn(
             "the ground is unevenly lit, so the level follows it:"
             " --local off (local='off') cuts at one level",
             PictureWarning,
             stacklevel=caller_level(),
         )
-        return best
+        # Of two that leave as much the shorter border.
+        return min(ways, key=lambda way: way[:2])[2]
 
     def _values(self, pixels: NDArray[Any]) -> tuple[Layer, bool, bool]:
         """One value for each pixel, whether ink is light, and whether it differs from a colour."""

@@ -58,10 +58,12 @@ def test_grain_on_soft_level_edges_is_no_uneven_light():
     assert np.abs(np.concatenate([low, high]) - [30, 39.5, 170, 120.5]).max() < 4 * 0.2
 
 
-def test_of_two_inks_that_tell_as_much_the_one_of_the_rim_is_taken():
-    ramp = np.tile(np.linspace(0, 255, 300).astype(np.uint8), (200, 1))
-    with pytest.warns(PictureWarning, match="unevenly lit"):
-        assert len(trace(ramp)) == 1
+@pytest.mark.parametrize("size", [(60, 60), (200, 300)])
+def test_of_two_inks_that_tell_as_much_the_shorter_border_is_taken(size):
+    ramp = np.tile(np.linspace(0, 255, size[1]).astype(np.uint8), (size[0], 1))
+    for image in (ramp, ramp[:, ::-1], 255 - ramp):
+        with pytest.warns(PictureWarning, match="unevenly lit"):
+            assert len(trace(image)) == 1
 
 
 def test_a_window_does_the_same_where_it_always_shows_ground():
