@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from shapespline.errors import InvalidInputError
+from shapespline.tracing.ground import POWERS, Grid, SmoothGround
 from shapespline.tracing.layer import Layer, places_of
 
 if TYPE_CHECKING:
@@ -29,9 +30,8 @@ if TYPE_CHECKING:
 
 # Blocks along the longer side, and the part of a block's pixels that show its ground.
 BLOCKS, GROUND_PART = 48, 0.1
-# Total degree of the polynomial; how often blocks of ink are told anew, and how many median
-# deviations below the ground they are.
-DEGREE, ROUNDS, BELOW = 4, 8, 3.0
+# How often blocks of ink are told anew, and how many median deviations below the ground they are.
+ROUNDS, BELOW = 8, 3.0
 # A level line runs along an edge if the values across it differ by this part of the contrast within
 # so many pixels. Lines of which more than this part runs along none show that one level is wrong;
 # another way is better if it leaves less than this, and less than this part of what there was
@@ -87,58 +87,38 @@ def evenly_lit(values: Layer, light: bool, window: float | None = None) -> Evenl
     size = max(height, width) / BLOCKS if window is None else 0.5 * window
     if window is not None and not window >= 4:
         raise InvalidInputError(f"local must be a window of at least 4 pixels, got {window}")
-    # Of a picture smaller than its blocks a pixel is one.
-    n_rows, n_columns = (min(max(1, round(n / size)), n) for n in (height, width))
-    row_edges = np.linspace(0, height, n_rows + 1).astype(int)
-    column_edges = np.linspace(0, width, n_columns + 1).astype(int)
+    grid = Grid.of((height, width), size)
     quantile = GROUND_PART if light else 1.0 - GROUND_PART
     blocks = np.array(
         [
-            [np.quantile(values[a:b, c:d], quantile) for c, d in pairwise(column_edges)]
-            for a, b in pairwise(row_edges)
+            [np.quantile(values[a:b, c:d], quantile) for c, d in pairwise(grid.columns)]
+            for a, b in pairwise(grid.rows)
         ]
     )
-    centres = [0.5 * (edges[1:] + edges[:-1]) for edges in (row_edges, column_edges)]
-    if window is None:
-        ground = _smooth_ground(blocks, centres, values.shape, light)
-    else:
-        ground = _near_ground(blocks, centres, light)
+    of_blocks = _smooth_ground if window is None else _near_ground
+    ground = of_blocks(blocks, grid, light)
     least = 1e-3 * float(blocks.max()) + 1e-12
     if light:
         return EvenlyLit(values, light, ground)
     return EvenlyLit(values, light, lambda rows, columns: np.maximum(ground(rows, columns), least))
 
 
-def _smooth_ground(
-    blocks: FloatArray, centres: list[FloatArray], shape: tuple[int, int], light: bool
-) -> Ground:
+def _smooth_ground(blocks: FloatArray, grid: Grid, light: bool) -> Ground:
     """A polynomial through the blocks of ground."""
-    y, x = (2 * c / n - 1 for c, n in zip(centres, shape, strict=True))
-    degrees = [(i, j) for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)]
-    powers = np.array([np.outer(y**i, x**j).ravel() for i, j in degrees]).T
-    seen = blocks.ravel()
+    seen, powers = blocks.ravel(), grid.powers
     used = np.ones(len(seen), dtype=bool)
     for _ in range(ROUNDS):
-        solved = np.linalg.lstsq(powers[used], seen[used], rcond=None)[0]
-        off = (seen - powers @ solved) * (-1.0 if light else 1.0)
+        ground = SmoothGround.through(seen, used, grid)
+        off = (seen - powers @ ground.coefficients) * (-1.0 if light else 1.0)
         spread = 1.4826 * float(np.median(np.abs(off[used]))) + 1e-9 * float(np.ptp(seen))
         kept = off > -BELOW * spread
-        if kept.sum() < 2 * len(degrees) or (kept == used).all():
+        if kept.sum() < 2 * len(POWERS) or (kept == used).all():
             break
         used = kept
-
-    def ground(rows: IntArray, columns: IntArray) -> FloatArray:
-        y, x = (2 * (at + 0.5) / n - 1 for at, n in zip((rows, columns), shape, strict=True))
-        found = np.zeros(np.broadcast_shapes(y.shape, x.shape))
-        for i in range(DEGREE + 1):
-            own = [value * x**j for (k, j), value in zip(degrees, solved, strict=True) if k == i]
-            found += y**i * sum(own)
-        return found
-
     return ground
 
 
-def _near_ground(blocks: FloatArray, centres: list[FloatArray], light: bool) -> Ground:
+def _near_ground(blocks: FloatArray, grid: Grid, light: bool) -> Ground:
     """Between blocks that each take the best ground of their neighbours."""
     from scipy import ndimage
 
@@ -148,7 +128,7 @@ def _near_ground(blocks: FloatArray, centres: list[FloatArray], light: bool) -> 
     def ground(rows: IntArray, columns: IntArray) -> FloatArray:
         at = [
             np.interp(index + 0.5, middle, np.arange(len(middle)))
-            for index, middle in zip((rows, columns), centres, strict=True)
+            for index, middle in zip((rows, columns), grid.centres, strict=True)
         ]
         return np.asarray(ndimage.map_coordinates(best, np.broadcast_arrays(*at), order=1))
 
