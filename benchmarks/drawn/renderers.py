@@ -1,4 +1,4 @@
-"""Pictures of drawings, 8 bits: exact coverage, Cairo, a browser, JPEG, scans."""
+"""Pictures of drawings, 8 bits: exact coverage, Cairo, a browser, JPEG, scans, photographs."""
 
 from __future__ import annotations
 
@@ -24,6 +24,11 @@ if TYPE_CHECKING:
     Picture = NDArray[np.uint8]
 
 
+# Of prints: what is seen of the disc beside a drawing, pixels, and colours, red, green and blue.
+BESIDE = 64
+PAPER, INKS = (247, 244, 236), ((200, 40, 30), (30, 42, 68))
+
+
 class MissingError(Exception):
     """What a renderer or a tracer needs is not on this machine; the sentence says what."""
 
@@ -45,6 +50,33 @@ def scanned(outlines: Sequence[Outline], size: int, blur: float, grain: float) -
     sharp = 20 + 0.8 * exact(outlines, size).astype(float)
     noise = np.random.default_rng(1).normal(0.0, grain, sharp.shape)
     return np.rint(np.clip(gaussian_filter(sharp, blur) + noise, 0, 255)).astype(np.uint8)
+
+
+def printed(outlines: Sequence[Outline], size: int) -> Picture:
+    """In one ink on tinted paper, beside it a disc of another; shape (size, size + BESIDE, 3)."""
+    ink = np.pad(coverage(outlines, size), ((0, 0), (0, BESIDE)))[..., None]
+    y, x = np.mgrid[:size, : size + BESIDE] + 0.5
+    off = np.hypot(x - size - 0.5 * BESIDE, y - 0.5 * size)
+    disc = np.clip(0.35 * BESIDE - off + 0.5, 0.0, 1.0)[..., None]
+    paper, first, second = np.array(PAPER), np.array(INKS[0]), np.array(INKS[1])
+    picture = paper + ink * (first - paper) + disc * (second - paper)
+    return np.rint(picture).astype(np.uint8)
+
+
+def photographed(outlines: Sequence[Outline], size: int) -> Picture:
+    """Such a print: out of focus by a pixel, darker towards its corners, grain, JPEG."""
+    picture = gaussian_filter(printed(outlines, size).astype(float), (1.0, 1.0, 0.0))
+    y, x = np.mgrid[-1 : 1 : size * 1j, -1 : 1 : (size + BESIDE) * 1j]
+    light = 0.97 - 0.10 * (x**2 + y**2) - 0.05 * x
+    grain = np.random.default_rng(1).normal(0.0, 2.0, picture.shape)
+    seen = np.clip(light[..., None] * picture + grain, 0, 255)
+    return jpeg(np.rint(seen).astype(np.uint8), 88)
+
+
+def is_ink(color: Sequence[int]) -> bool:
+    """Whether a colour is nearer to the ink of a printed drawing than to the paper."""
+    off = [np.abs(np.subtract(color[:3], one)).sum() for one in (INKS[0], PAPER)]
+    return bool(off[0] < off[1])
 
 
 def by_cairo(outlines: Sequence[Outline], size: int) -> Picture:
@@ -157,4 +189,6 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "blurred by 1.5": lambda outlines, size: scanned(outlines, size, blur=1.5, grain=0.5),
     "scanned, JPEG 90": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.0, grain=8.0)),
     "badly scanned": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.2, grain=12.0)),
+    "printed": printed,
+    "photographed": photographed,
 }

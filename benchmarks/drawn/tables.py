@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 SIZE, SIZES, TOLERANCES = 256, (128, 512), (None, 0.35)
 EXACT = "exact coverage"
+# As drawn, of areas of the paper and two inks.
+IN_COLOURS = "drawn, in colours"
 # Plates that are sampled, noise in per cent and numbers of points.
 PLATES = ("slot", "box rounded", "bracket", "star 5", "keyhole")
 SAMPLINGS = tuple((noise, n) for noise in (0.02, 0.1, 0.5) for n in (200, 1000))
@@ -74,6 +76,8 @@ def measured(
     found = Figures()
     if tracer in PEERS:
         traced = PEERS[tracer](image)
+    elif tracer == IN_COLOURS:
+        traced, found.seconds = ours(image, tolerance, "drawn", colors=3)
     else:
         traced, found.seconds = ours(image, tolerance, tracer)
     found.add(name, outlines, traced)
@@ -139,6 +143,10 @@ def pictures_tables() -> Tables:
             rows = [(one, names_of(kind), tolerance, one, EXACT) for one in few]
             tables.add(f"{title}, {SIZE} pixels, {said}", rows, SIZE)
     rows = [(one, names_of(*both), None, "drawn", one) for one in RENDERERS]
+    rows += [
+        (f"{one}, in colours", names_of(*both), None, IN_COLOURS, one)
+        for one in ("printed", "photographed")
+    ]
     tables.add(f"Plates and icons, {SIZE} pixels, drawn, renderers", rows, SIZE)
     for size in SIZES:
         rows = [(_said(one), names_of(*both), one, "drawn", EXACT) for one in TOLERANCES]

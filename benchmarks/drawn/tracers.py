@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageColor
 
 import shapespline as ss
 from benchmarks.drawn.found import Found
-from benchmarks.drawn.renderers import MissingError
+from benchmarks.drawn.renderers import MissingError, is_ink
 from shapespline.values import Piece
 
 if TYPE_CHECKING:
@@ -27,12 +27,25 @@ if TYPE_CHECKING:
 CHARACTERS = ("fewest", "drawn")
 
 
-def ours(picture: Picture, tolerance: float | None, character: str) -> tuple[Found, float]:
-    """Outlines of this package, and the seconds that fitting took."""
-    shape = ss.trace(picture)
+def ours(
+    picture: Picture, tolerance: float | None, character: str, colors: int | None = None
+) -> tuple[Found, float]:
+    """Outlines of this package, of the drawing alone, and the seconds that fitting took."""
+    shape = ss.trace(picture, colors=colors)
     begin = time.process_time()
     fits = ss.fit_shape(shape, tolerance=tolerance, character=character).fits
-    return Found.of_fits(fits), time.process_time() - begin
+    seconds = time.process_time() - begin
+    own = [fit for k, fit in enumerate(fits) if _is_drawn(shape, k, len(picture))]
+    return Found.of_fits(own), seconds
+
+
+def _is_drawn(shape: ss.Shape, index: int, size: int) -> bool:
+    """Whether an outline is no disc beside the drawing and, of areas, one of ink."""
+    if shape.contours[index].points[:, 0].max() > size:
+        return False
+    area = index if shape.parents[index] < 0 else shape.parents[index]
+    color = shape.colors[area] if shape.colors else None
+    return color is None or is_ink(ImageColor.getrgb(color))
 
 
 def potrace(picture: Picture) -> Found:
