@@ -93,7 +93,7 @@ def trace(
         place of the outlines of ink; "auto" is as many as clearly differ, 16 at most. Outlines of
         areas come largest first, the holes in each after it; ``Shape.colors`` holds the colours.
         Of the other options ``min_area`` (smaller areas go to the neighbour with which they share
-        most border), ``blur`` and ``crop`` act then, the others are refused.
+        most border), ``blur``, ``crop`` and ``local="off"`` act then, the others are refused.
     centerline : bool
         Return the centre lines of strokes instead of the outlines of the ink.
     progress : callable, optional
@@ -147,14 +147,22 @@ def trace(
         raise InvalidInputError(f"min_area must be at least 0 square pixels, got {min_area}")
     say = progress or silent
     if colors is not None:
-        given = (level, polarity, channel, color, contours, invert, local, centerline)
-        if given != (None, "auto", "auto", None, "all", False, "auto", False):
+        given = (level, polarity, channel, color, contours, invert, centerline)
+        as_usual = given == (None, "auto", "auto", None, "all", False, False)
+        if not as_usual or local not in ("auto", "off"):
             raise InvalidInputError(
-                "colors are areas, not ink: give min_area, blur and crop with them, nothing else"
+                "colors are areas, not ink: give min_area, blur, crop and local='off' with them,"
+                " nothing else"
             )
-        count = checked_count(colors)
-        pixels = _pixels(image, say)
-        return color_areas(pixels, count, min_area=min_area, blur=blur, crop=crop, say=say)
+        return color_areas(
+            _pixels(image, say),
+            checked_count(colors),
+            min_area=min_area,
+            blur=blur,
+            crop=crop,
+            lit=local == "off",
+            say=say,
+        )
     with contextlib.suppress(TypeError, ValueError):  # a window, as a command line says it
         local = float(local)
     seeing = Seeing(level, polarity, channel, color, invert, cast("Local", local), blur, crop)

@@ -28,6 +28,11 @@ class Nodes(NamedTuple):
     first: IntArray
     second: IntArray
 
+    def chosen(self, index: IntArray) -> Nodes:
+        """Some of them."""
+        where = self.row[index], self.column[index], self.upright[index]
+        return Nodes(*where, self.first[index], self.second[index])
+
 
 class Borders(NamedTuple):
     """Crossings, junctions, and how they hang together.

@@ -10,15 +10,14 @@ import numpy as np
 from shapespline.errors import InvalidInputError, PictureWarning, caller_level
 from shapespline.geometry import signed_area
 from shapespline.monitor import silent
-from shapespline.tracing.border_lines import Bordering, NodePlaces, drawn_borders
-from shapespline.tracing.borders import OUTSIDE, Borders, borders_of, rings_of
-from shapespline.tracing.edges import EVEN, EVEN_NOISE, FARTHEST, REACH, places_across
+from shapespline.tracing.border_lines import Bordering, drawn_borders
+from shapespline.tracing.borders import borders_of, rings_of
+from shapespline.tracing.color_edges import Seen, node_places, softened
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import noise_deviation
-from shapespline.tracing.lines import DRAWN_ACCURACY
 from shapespline.tracing.palette import MOST_COLORS, Palette, merged, palette_of
 from shapespline.tracing.pixels import on_ground, validated_pixels
-from shapespline.tracing.seeing import cropped
+from shapespline.tracing.seeing import cropped, evened
 from shapespline.units import PIXEL
 from shapespline.validation import whole_number
 from shapespline.values import Contour, Shape, ViewBox
@@ -29,6 +28,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from shapespline.monitor import Say
+    from shapespline.tracing.border_lines import BorderLine
+    from shapespline.tracing.borders import Arc, Ring
     from shapespline.typing import ArrayLike, BoolArray, FloatArray, IntArray
 
 # Square pixels of the smallest area of a picture without noise, and with it: so many for each part
@@ -36,8 +37,6 @@ if TYPE_CHECKING:
 LEAST_AREA, LEAST_NOISE_AREA, LARGEST_LEAST = 1.0, 1000.0, 200.0
 # The contrast of the faintest edge, of 255 in a channel: what changes less may be noise.
 FAINT = 60.0
-# A border's crossings are no nearer to a pixel's centre than this while its course is told.
-INNER = 0.02
 
 
 def color_areas(
@@ -47,14 +46,18 @@ def color_areas(
     min_area: float | None = None,
     blur: float | None = None,
     crop: str | Sequence[int] | None = None,
+    lit: bool = False,
     say: Say = silent,
 ) -> Shape:
     """Areas of few colours, without gaps and without overlaps; as :func:`shapespline.trace` tells.
 
+    Of a picture that is not taken for evenly ``lit`` the light is told first.
+
     Areas of fewer square pixels than ``min_area`` go to the neighbour with which they share most
     border; if it is not given, as many as the noise of the picture asks for, without noise none.
     """
-    pixels = _eight_bits(cropped(validated_pixels(image), crop))
+    pixels = cropped(validated_pixels(image), crop)
+    pixels = _eight_bits(pixels if lit else evened(pixels, say))
     if blur:
         from scipy.ndimage import gaussian_filter
 
@@ -63,10 +66,10 @@ def color_areas(
         )
     say("looking for colours")
     palette = palette_of(pixels, colors)
-    noise = max(noise_deviation(Layer(pixels[:, :, k]), FAINT) for k in range(3)) / 255.0
+    noise = max(noise_deviation(Layer(pixels[:, :, k]), FAINT) for k in range(3))
     least = min_area
     if least is None:
-        least = min(LEAST_AREA + LEAST_NOISE_AREA * noise, LARGEST_LEAST)
+        least = min(LEAST_AREA + LEAST_NOISE_AREA * noise / 255.0, LARGEST_LEAST)
     palette, n_merged = merged(palette, least)
     if n_merged and min_area is None:
         warnings.warn(
@@ -77,12 +80,12 @@ def color_areas(
         )
     say(f"following the borders of {len(palette.colors)} colours")
     borders = borders_of(palette.labels)
-    found = _places(pixels, palette, borders, noise)
-    arcs, rings = rings_of(borders, found.level)
+    seen = softened(Seen(pixels, palette, noise), borders.nodes)
+    places = node_places(seen, borders)
+    arcs, rings = rings_of(borders, places.level)
     say(f"looking for the corners of {len(arcs)} borders")
-    lines = drawn_borders(pixels, palette, Bordering(borders, arcs, rings, found), noise)
-    return _shape([ring.label for ring in rings],
-                  [ring.outline(lines, arcs) for ring in rings], palette)  # fmt: skip
+    lines = drawn_borders(seen, Bordering(borders, arcs, rings, places))
+    return _shape(rings, arcs, lines, palette)
 
 
 def checked_count(colors: int | str) -> int | str:
@@ -109,75 +112,15 @@ def _eight_bits(pixels: NDArray[Any]) -> NDArray[np.uint8]:
     return np.rint(np.clip(pixels / full, 0, 1) * 255).astype(np.uint8)
 
 
-def _places(
-    pixels: NDArray[np.uint8], palette: Palette, borders: Borders, noise: float
-) -> NodePlaces:
-    """Places of nodes, junctions and corners."""
-    nodes = borders.nodes
-    height, width = palette.labels.shape
-    rim = (nodes.first == OUTSIDE) | (nodes.second == OUTSIDE)
-    level, drawn = np.full(len(rim), 0.5), np.full(len(rim), 0.5)
-    known = np.zeros(len(rim), dtype=bool)
-    for chunk in np.array_split(np.flatnonzero(~rim), (~rim).sum() // 100_000 + 1):
-        across, step = _across(pixels, palette, borders, chunk)
-        first, second = across[:, REACH - 1] - 0.5, across[:, REACH] - 0.5
-        told = (first < 0) & (second > 0)
-        share = np.where(told, first / np.where(told, first - second, 1.0), 0.5)
-        level[chunk] = np.clip(share, INNER, 1 - INNER)
-        ahead = places_across(across, EVEN + EVEN_NOISE * noise * 255.0 / step) - REACH + 0.5
-        moved = np.abs(ahead - share) <= FARTHEST
-        known[chunk] = moved & told
-        drawn[chunk] = np.where(known[chunk], ahead, share)
-    found = []
-    for shares in (level, drawn):
-        x = nodes.column + 0.5 + np.where(nodes.upright, 0.0, shares)
-        y = height - (nodes.row + 0.5 + np.where(nodes.upright, shares, 0.0))
-        own = np.clip(np.column_stack([x, y]), 0, (width, height))
-        junctions = [_junction(own, four, rim, (width, height)) for four in borders.cells]
-        found.append(np.concatenate([own, _pairs(junctions), _pairs(borders.corners)]))
-    return NodePlaces(found[0], found[1], np.pad(known, (0, len(found[0]) - len(known))))
-
-
-def _junction(
-    places: FloatArray, four: Sequence[int], rim: BoolArray, size: tuple[int, int]
-) -> FloatArray:
-    """Where the borders of a cell meet: in their middle, or where one of them meets the rim."""
-    there = [node for node in four if node >= 0]
-    inner = [node for node in there if not rim[node]]
-    if len(inner) == len(there) or not inner:
-        return np.asarray(places[there].mean(axis=0))
-    outer = places[next(node for node in there if rim[node])]
-    on_side = (outer == 0) | (outer == size)
-    return np.where(on_side, outer, places[inner].mean(axis=0))
-
-
-def _pairs(points: Sequence[Any]) -> FloatArray:
-    return np.array(points, dtype=np.float64).reshape(-1, 2)
-
-
-def _across(
-    pixels: NDArray[np.uint8], palette: Palette, borders: Borders, chunk: NDArray[np.int64]
-) -> tuple[FloatArray, float]:
-    """How far each pixel across borders is from the first colour to the second, 0 to 1."""
-    nodes = borders.nodes
-    height, width = palette.labels.shape
-    offsets = np.arange(1 - REACH, REACH + 1)
-    upright = nodes.upright[chunk, None]
-    row = np.clip(nodes.row[chunk, None] + np.where(upright, offsets, 0), 0, height - 1)
-    column = np.clip(nodes.column[chunk, None] + np.where(upright, 0, offsets), 0, width - 1)
-    a, b = palette.colors[nodes.first[chunk]], palette.colors[nodes.second[chunk]]
-    along = b - a
-    length = np.maximum((along**2).sum(axis=1), 1.0)
-    seen = pixels[row, column].astype(np.float64) - a[:, None]
-    across = (seen * along[:, None]).sum(axis=2) / length[:, None]
-    return across, float(np.sqrt(np.median(length)))
-
-
-def _shape(labels: Sequence[int], outlines: Sequence[FloatArray], palette: Palette) -> Shape:
+def _shape(
+    rings: Sequence[Ring], arcs: Sequence[Arc], lines: Sequence[BorderLine], palette: Palette
+) -> Shape:
     """Areas by size, each with the holes in it after it."""
     height, width = palette.labels.shape
+    outlines = [ring.outline([line.points for line in lines], arcs) for ring in rings]
     areas = np.array([signed_area(points) for points in outlines])
-    owner = _owners(np.array(labels), outlines, areas)
+    labels = np.array([ring.label for ring in rings])
+    owner = _owners(labels, outlines, areas)
     contours: list[Contour] = []
     parents: list[int] = []
     colors: list[str | None] = []
@@ -187,8 +130,15 @@ def _shape(labels: Sequence[int], outlines: Sequence[FloatArray], palette: Palet
         around = len(contours)
         color = "#" + "".join(f"{round(value):02x}" for value in palette.colors[labels[index]])
         for ring in [index, *np.flatnonzero(owner == index).tolist()]:
-            own = _without_repeats(outlines[ring])
-            contours.append(Contour(own, closed=True, accuracy=DRAWN_ACCURACY))
+            level = rings[ring].outline([line.level_line for line in lines], arcs)
+            contours.append(
+                Contour(
+                    _without_repeats(outlines[ring]),
+                    closed=True,
+                    accuracy=max(lines[half].accuracy for half, _ in rings[ring].halves),
+                    level_line=_without_repeats(level),
+                )
+            )
             parents.append(-1 if ring == index else around)
             colors.append(color if ring == index else None)
     return Shape(contours, parents, ViewBox(0, 0, width, height), PIXEL, colors=colors)

@@ -236,17 +236,13 @@ def _missing(
 ) -> FloatArray:
     """Ink around each corner that the picture has and blurred outlines do not, square pixels."""
     height, width = field.shape
-    keys, part, behind = border_coverage(outlines, height, width)
+    covered = border_coverage(outlines, height, width)
     margin = ceil(BLURRED * blur)
     shown = (slice(None), *(slice(margin, margin + 2 * reach + 1),) * 2)
     missing = []
     for some in np.array_split(at, len(at) // TOGETHER + 1):
         r, c, inside = around(some, field.shape, reach + margin)
-        key = np.clip(r, 0, height - 1) * width + np.clip(c, 0, width - 1)
-        place = np.searchsorted(keys, key, "right") - 1
-        before = keys[np.maximum(place, 0)]
-        same_row = (place >= 0) & (before // width == key // width)
-        drawn = np.where(before == key, part[place], np.where(same_row, behind[place], 0.0))
+        drawn = covered.at(np.clip(r, 0, height - 1), np.clip(c, 0, width - 1), width)
         if blur:
             from scipy.ndimage import gaussian_filter  # which takes a while to load
 

@@ -7,7 +7,7 @@ the right by its height: signed areas, added up along each row (as font rasteris
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,12 +17,35 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray, IntArray
 
 
-def border_coverage(
-    outlines: Sequence[FloatArray], height: int, width: int
-) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Pixels on the border of the ink, row times width plus column, ascending; the part covered.
+class Covered(NamedTuple):
+    """How much of each pixel is covered.
 
-    And what the pixels behind each in its row are covered by, up to the next one.
+    Attributes
+    ----------
+    keys : ndarray of int, shape (n,)
+        Pixels on the border, row times width plus column, ascending.
+    part : ndarray, shape (n,)
+        How much of each.
+    behind : ndarray, shape (n,)
+        How much of those behind it in its row, up to the next one.
+    """
+
+    keys: IntArray
+    part: FloatArray
+    behind: FloatArray
+
+    def at(self, row: IntArray, column: IntArray, width: int) -> FloatArray:
+        """The part of some pixels that is covered."""
+        key = row * width + column
+        place = np.searchsorted(self.keys, key, "right") - 1
+        before = self.keys[np.maximum(place, 0)]
+        same_row = (place >= 0) & (before // width == row)
+        covered = np.where(before == key, self.part[place], self.behind[place])
+        return np.where(same_row, covered, 0.0)
+
+
+def border_coverage(outlines: Sequence[FloatArray], height: int, width: int) -> Covered:
+    """How much of each pixel is covered.
 
     Parameters
     ----------
@@ -53,7 +76,7 @@ def border_coverage(
     # From the start of its row: all edges before it, less those of the rows above.
     first = np.searchsorted(keys, keys // width * width)
     before = np.concatenate([[0.0], beyond])
-    return keys, before[:-1] - before[first] + partly, beyond - before[first]
+    return Covered(keys, before[:-1] - before[first] + partly, beyond - before[first])
 
 
 def _cut(begins: FloatArray, ends: FloatArray, axis: int) -> tuple[FloatArray, FloatArray]:

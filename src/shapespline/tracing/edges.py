@@ -45,6 +45,11 @@ class Edges(NamedTuple):
     known: BoolArray
 
 
+def no_edges(shares: FloatArray) -> Edges:
+    """Crossings that stay on the level line."""
+    return Edges(shares, np.zeros(len(shares), dtype=bool))
+
+
 def level_shares(field: Field, found: Crossings) -> FloatArray:
     """Where linear interpolation between two pixel centres puts the level.
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
-from shapespline.tracing.edges import NOISIEST, drawn_shares, level_shares
+from shapespline.tracing.edges import drawn_shares, level_shares, no_edges
 from shapespline.tracing.softness import Softness
 
 if TYPE_CHECKING:
@@ -25,13 +25,8 @@ LEAST_ACROSS, FEW_POINTS = 0.65, 12
 # Crossings on either side between which an edge has its direction.
 CHORD = 2
 # Pixels, root mean square over traced glyphs and icons whose outlines are known: where the grey
-# tells the edge, where only the level does, and where there is no grey.
-DRAWN_ACCURACY, ACCURACY, ONE_BIT_ACCURACY = 0.02, 0.07, 0.25
-# Noise has no bound as other errors of pictures have: it is allowed four deviations, these three
-# (TRC-20).
-UNBOUNDED = 4 / 3
-# In more noise than this, of the contrast, ink tells no corner from a rounding (TRC-20).
-NOISIEST_CORNER = 0.065
+# tells the edge, and where there is no grey.
+DRAWN_ACCURACY, ONE_BIT_ACCURACY = 0.02, 0.25
 # Part of an outline's points that have to be of a kind for it to be of that kind; steps of one
 # pixel that a drawing of edges along rows and columns has at most.
 MOST, FEW_STEPS = 0.5, 4
@@ -54,13 +49,14 @@ def drawn_lines(
     used = np.concatenate(loops)
     part = found.chosen(used)
     say(f"placing {len(used)} points of edges")
-    edges = drawn_shares(field, part, level_shares(field, part))
+    soft = Softness.of(field, part)
+    shares = level_shares(field, part)
+    edges = no_edges(shares) if soft.on_level else drawn_shares(field, part, shares)
     places_drawn = part.places(height, edges.shares)
     at_rim = part.at_rim(height, width)
-    midway = np.abs(level_shares(field, part) - 0.5) < 1e-9
+    midway = np.abs(shares - 0.5) < 1e-9
     outlines, level_lines, accuracies = [], [], []
     begin = 0
-    soft = Softness.of(field, part)
     for loop in loops:
         own = slice(begin, begin + len(loop))
         begin += len(loop)
@@ -68,9 +64,12 @@ def drawn_lines(
         level_line = distinct(_with_rim_corners(places[loop], height, width))
         inner = ~at_rim[own]
         upright = part.upright[own]
-        accuracy = _accuracy(
-            edges.known[own][inner], midway[own][inner], across[inner], upright[inner]
-        )
+        accuracy = soft.accuracy
+        known, flat = edges.known[own][inner], midway[own][inner]
+        if not inner.any() or _is_known(known, across[inner]):  # else the rim alone
+            accuracy = DRAWN_ACCURACY
+        if _is_one_bit(flat, upright[inner]):
+            accuracy = ONE_BIT_ACCURACY
         points = places_drawn[own]
         if accuracy == DRAWN_ACCURACY and len(loop) >= FEW_POINTS:
             told = (across >= LEAST_ACROSS) | ~inner
@@ -79,12 +78,10 @@ def drawn_lines(
         points = distinct(_with_rim_corners(points, height, width))
         outlines.append(points if len(points) >= 3 else level_line)
         level_lines.append(level_line)
-        if accuracy == ACCURACY:
-            accuracy = max(accuracy, UNBOUNDED * soft.scatter)
         accuracies.append(accuracy)
-    # Edges that noise alone leaves on the level line have corners, too (TRC-20).
-    noisy = NOISIEST < field.noise <= NOISIEST_CORNER and soft.scatter > 0
-    drawn = [a == DRAWN_ACCURACY or (noisy and a != ONE_BIT_ACCURACY) for a in accuracies]
+    # Edges that blur or noise alone leave on the level line have corners, too (TRC-20).
+    worst = soft.accuracy if soft.shows_corners(field.noise) else DRAWN_ACCURACY
+    drawn = [accuracy in (DRAWN_ACCURACY, worst) for accuracy in accuracies]
     say(f"looking for the corners of {len(outlines)} outlines")
     outlines = sharpened(outlines, level_lines, drawn, field, soft)
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
@@ -114,20 +111,20 @@ def _bent(points: FloatArray, upright: BoolArray, known: BoolArray) -> FloatArra
     return moved
 
 
-def _accuracy(known: BoolArray, midway: BoolArray, across: FloatArray, upright: BoolArray) -> float:
-    """Standard deviation of an outline.
+def _is_known(known: BoolArray, across: FloatArray) -> bool:
+    """Whether the grey tells where most of an outline lies."""
+    told = across >= LEAST_ACROSS
+    return bool(told.any() and known[told].mean() > MOST)
 
-    Edges along rows and columns without grey may lie on the lines between pixels; steps of one
-    pixel without grey are those of a picture of one bit.
+
+def _is_one_bit(midway: BoolArray, upright: BoolArray) -> bool:
+    """Whether an outline is that of a picture of one bit: steps of a pixel without grey.
+
+    Edges along rows and columns without grey may lie on the lines between pixels.
     """
-    if len(midway) == 0:  # the rim alone
-        return DRAWN_ACCURACY
     turns = upright != np.roll(upright, 1)
     steps = turns & np.roll(turns, -1) & midway
-    if midway.mean() > MOST and steps.sum() >= FEW_STEPS:
-        return ONE_BIT_ACCURACY
-    told = across >= LEAST_ACROSS
-    return DRAWN_ACCURACY if told.any() and known[told].mean() > MOST else ACCURACY
+    return bool(len(midway) and midway.mean() > MOST and steps.sum() >= FEW_STEPS)
 
 
 def _with_rim_corners(points: FloatArray, height: int, width: int) -> FloatArray:

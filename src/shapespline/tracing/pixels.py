@@ -160,11 +160,11 @@ def pixel_values(pixels: NDArray[Any], channel: Channel, *, lightness: bool) -> 
     InvalidInputError
         If the picture does not have the channel.
     """
-    has_alpha = _has_alpha(pixels)
-    if channel == "alpha" and not has_alpha:
+    transparent = has_alpha(pixels)
+    if channel == "alpha" and not transparent:
         raise InvalidInputError("channel 'alpha' needs a picture with transparency; leave it out")
     free = channel == "auto" and not lightness
-    if channel == "alpha" or (free and has_alpha and _is_one_colour(pixels)):
+    if channel == "alpha" or (free and transparent and _is_one_colour(pixels)):
         return PixelValues(Layer(pixels, lambda part: part[..., -1]), is_difference=False)
     laid = _laid(pixels)
     is_grey = pixels.ndim == 2 or pixels.shape[2] == 2
@@ -183,7 +183,8 @@ def full_scale(pixels: NDArray[Any]) -> float:
     return float(np.iinfo(pixels.dtype).max) if pixels.dtype.kind == "u" else 1.0
 
 
-def _has_alpha(pixels: NDArray[Any]) -> bool:
+def has_alpha(pixels: NDArray[Any]) -> bool:
+    """Whether the last channel is one of opacity."""
     return pixels.ndim == 3 and pixels.shape[2] in (2, 4)
 
 
@@ -208,7 +209,7 @@ def on_ground(pixels: NDArray[Any]) -> NDArray[Any]:
 
 def _laid(pixels: NDArray[Any]) -> Work:
     """What lays pixels of a picture on white or black; grey ones have no axis of channels then."""
-    if not _has_alpha(pixels):
+    if not has_alpha(pixels):
         return lambda part: part
     full = full_scale(pixels)
     ground = _ground(pixels, full)

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from shapespline.errors import InvalidInputError, PictureWarning, caller_level
+from shapespline.errors import (
+    DegenerateContourError,
+    InvalidInputError,
+    PictureWarning,
+    caller_level,
+)
 from shapespline.monitor import silent
 from shapespline.tracing.crossings import Crossings, crossings
+from shapespline.tracing.falloff import without_falloff
 from shapespline.tracing.field import Field
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import halfway_to_other, noise_deviation, picture_level
@@ -25,10 +31,12 @@ from shapespline.tracing.pixels import (
     Channel,
     colour_distance,
     full_scale,
+    has_alpha,
     pixel_values,
     rim,
     validated_pixels,
 )
+from shapespline.tracing.softness import Softness
 from shapespline.validation import is_number
 
 if TYPE_CHECKING:
@@ -43,6 +51,9 @@ Polarity: TypeAlias = Literal["auto", "dark", "light"]
 Local: TypeAlias = float | Literal["auto", "off"]
 
 POLARITIES = ("auto", "dark", "light")
+# Lightness tells what a difference of colours does if its outlines are as many, their lengths
+# differ by no more than this part, and its contrast is so much of the other's (TRC-21).
+ALIKE, STRONG = 0.05, 0.6
 
 
 @dataclass(frozen=True)
@@ -80,6 +91,8 @@ class Seeing:
         A warning tells if the level was found to have to follow the light.
         """
         pixels = cropped(validated_pixels(image), self.crop)
+        if self.local == "auto" and self.level is None and self.color is None:
+            pixels = evened(pixels, say)
         say("looking for ink")
         values, light, differs = self._values(pixels)
         if is_number(self.local):
@@ -90,6 +103,8 @@ class Seeing:
             level = halfway_to_other(values, full_scale(pixels))
         field = cut_field(values, light, level)
         found = crossings(field, say)
+        if differs and self.channel == "auto" and self.color is None:
+            return self._by_lightness(pixels, field, found, say)
         if self.local == "off" or self.level is not None or differs:
             return field, found
         astray = part_along_nothing(field, found)
@@ -117,6 +132,27 @@ class Seeing:
         )
         # Of two that leave as much the shorter border.
         return min(ways, key=lambda way: way[:2])[2]
+
+    def _by_lightness(
+        self, pixels: NDArray[Any], field: Field, found: Crossings, say: Say
+    ) -> tuple[Field, Crossings]:
+        """The lightness of blurred colours where it tells the same: a camera sees it more sharply.
+
+        Colours are seen by every other pixel, and kept so by JPEG (TRC-21).
+        """
+        if not Softness.of(field, found).blur:
+            return field, found
+        try:
+            values, light, _ = replace(self, channel="grey")._values(pixels)
+            grey = cut_field(values, light)
+            found_grey = crossings(grey, say)
+        except DegenerateContourError:  # of one lightness
+            return field, found
+        few = abs(len(found_grey.row) - len(found.row)) <= ALIKE * len(found.row)
+        same = few and len(found_grey.loops) == len(found.loops)
+        if same and grey.contrast >= STRONG * field.contrast:
+            return grey, found_grey
+        return field, found
 
     def _values(self, pixels: NDArray[Any]) -> tuple[Layer, bool, bool]:
         """One value for each pixel, whether ink is light, and whether it differs from a colour."""
@@ -146,6 +182,21 @@ def cut_field(values: Layer, light: bool, level: float | None = None) -> Field:
     # A level that was asked for is half-way to what is drawn.
     middle = 0.5 * (found.dark + found.light) if level is None else found.cut
     return Field(values, found.cut, light, contrast, noise, middle)
+
+
+def evened(pixels: NDArray[Any], say: Say) -> NDArray[Any]:
+    """The picture without the light that falls off over it, which a warning tells."""
+    say("looking for the light on the picture")
+    even = None if has_alpha(pixels) else without_falloff(pixels)
+    if even is None:
+        return pixels
+    warnings.warn(
+        "the picture is unevenly lit, so it is looked at as an even light would show it:"
+        " --local off (local='off') leaves it as it is",
+        PictureWarning,
+        stacklevel=caller_level(),
+    )
+    return even
 
 
 def cropped(pixels: NDArray[Any], crop: str | Sequence[int] | None) -> NDArray[Any]:

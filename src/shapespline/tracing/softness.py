@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.tracing.edges import REACH, profiles_across
+from shapespline.tracing.edges import NOISIEST, REACH, profiles_across
 
 if TYPE_CHECKING:
     from shapespline.tracing.crossings import Crossings
     from shapespline.tracing.field import Field
+    from shapespline.typing import FloatArray
 
 # Edges that tell the blur: so many of them, that cross their row or column by this part of the
 # square of their slope; the two outermost pixels of ground and of ink are even, but for so many
@@ -26,6 +27,17 @@ LEAST_BLUR = 0.5
 # Variance of a place within a pixel, and of a value between two pixels, of theirs: in the mean over
 # all places there.
 WITHIN_PIXEL, BETWEEN_PIXELS = 1 / 12, 2 / 3
+
+
+# Level lines are straight through edges blurred by so many pixels, or blurred at all where noise
+# scatters them by as much: it adds up in what is summed (TRC-20).
+SOFT, SCATTERED = 0.75, 0.01
+# Root mean square error of level lines, pixels, over traced glyphs and icons whose outlines are
+# known; of such straight ones. Noise has no bound as other errors of pictures have: it is allowed
+# four deviations, those three (TRC-20).
+LEVEL_ACCURACY, SOFT_ACCURACY, UNBOUNDED = 0.07, 0.04, 4 / 3
+# In more noise than this, of the contrast, ink tells no corner from a rounding (TRC-20).
+NOISIEST_CORNER = 0.065
 
 
 class Softness(NamedTuple):
@@ -40,35 +52,64 @@ class Softness(NamedTuple):
     @classmethod
     def of(cls, field: Field, found: Crossings) -> Softness:
         """Of a picture, told by its edges."""
-        blur = _blur(field, found)
+        part = found.chosen(np.flatnonzero(~found.at_rim(*field.shape)))
+        part = part.chosen(np.arange(0, len(part.row), len(part.row) // ENOUGH + 1))
+        before, behind = (
+            field.coverage(
+                part.row + np.where(part.upright, 0, side),
+                part.column + np.where(part.upright, side, 0),
+            )
+            for side in (-1, 1)
+        )
+        return cls.told(profiles_across(field, part), behind - before, field.noise)
+
+    @classmethod
+    def told(cls, profiles: FloatArray, beside: FloatArray, noise: float) -> Softness:
+        """Of a picture, told by the grey across its edges.
+
+        Parameters
+        ----------
+        profiles : ndarray, shape (n, 2 REACH)
+            From ground to ink, the edge in the middle.
+        beside : ndarray, shape (n,)
+            By how much the pixel of the ground differs between its two neighbours along the edge.
+        noise : float
+            Of the contrast.
+        """
+        blur = _blur(profiles, beside, noise)
         if blur is None:
             return SHARP
         # What noise is over the slope of an edge.
         slope = 1.0 / np.sqrt(2 * np.pi * (blur**2 + WITHIN_PIXEL))
-        return cls(blur, field.noise * float(np.sqrt(BETWEEN_PIXELS) / slope))
+        return cls(blur, noise * float(np.sqrt(BETWEEN_PIXELS) / slope))
+
+    @property
+    def on_level(self) -> bool:
+        """Whether level lines tell more than what is summed across edges."""
+        return self.blur >= SOFT or (self.blur > 0 and self.scatter >= SCATTERED)
+
+    @property
+    def accuracy(self) -> float:
+        """Of level lines, pixels."""
+        return max(SOFT_ACCURACY if self.on_level else LEVEL_ACCURACY, UNBOUNDED * self.scatter)
+
+    def shows_corners(self, noise: float) -> bool:
+        """Whether corners of level lines are told from roundings, in noise of the contrast."""
+        noisy = NOISIEST < noise <= NOISIEST_CORNER
+        return self.scatter > 0 and (self.on_level or noisy)
 
 
 # Edges as a renderer draws them.
 SHARP = Softness()
 
 
-def _blur(field: Field, found: Crossings) -> float | None:
+def _blur(profiles: FloatArray, beside: FloatArray, noise: float) -> float | None:
     """0 where edges are sharp; None where too few are plain."""
-    part = found.chosen(np.flatnonzero(~found.at_rim(*field.shape)))
-    part = part.chosen(np.arange(0, len(part.row), len(part.row) // ENOUGH + 1))
-    profiles = profiles_across(field, part)
-    even = EVEN + EVEN_NOISE * field.noise
+    even = EVEN + EVEN_NOISE * noise
     plain = (np.abs(profiles[:, :2]) <= even).all(axis=1)
     plain &= (np.abs(profiles[:, -2:] - 1.0) <= even).all(axis=1)
-    before, behind = (
-        field.coverage(
-            part.row + np.where(part.upright, 0, side),
-            part.column + np.where(part.upright, side, 0),
-        )
-        for side in (-1, 1)
-    )
     steps = np.diff(profiles, axis=1)
-    across, along = steps[:, REACH - 1], 0.5 * (behind - before)
+    across, along = steps[:, REACH - 1], 0.5 * beside
     with np.errstate(divide="ignore", invalid="ignore"):
         share = across**2 / (across**2 + along**2)  # cos^2 a
     plain &= share >= LEAST_ACROSS
