@@ -35,9 +35,9 @@ PARAMETERS = {"n_control_points": "control_points"}
 IN_PASSES = WANTED | {"degree", "corners", "form", "effort", "time_limit"}
 
 
-# Areas of colours are fitted within so many times their accuracy if no tolerance is given: their
-# borders are fitted once for two areas, which estimation from one outline cannot do.
-AREA_TOLERANCE = 10.0
+# Areas of colours are fitted within so many pixels if no tolerance is given, or so many times their
+# accuracy: estimated one by one, borders of illustrations take longer and more points.
+AREA_TOLERANCE, AREA_ACCURACIES = 0.2, 3.0
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class FitFile:
         shared = self.shared_boundaries or any(shape.colors)
         accuracy = shape.longest.accuracy
         if any(shape.colors) and accuracy and not asked.keys() & WANTED:
-            asked["tolerance"] = AREA_TOLERANCE * accuracy
+            asked["tolerance"] = max(AREA_TOLERANCE, AREA_ACCURACIES * accuracy)
         n_points = sum(len(contour) for contour in shape)
 
         def tell(done: int, total: int) -> None:

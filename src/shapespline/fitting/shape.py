@@ -25,11 +25,21 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from shapespline.monitor import Callback
-    from shapespline.typing import ArrayLike, Character, CornerChoice, Effort, Ends, Form, Loss
+    from shapespline.typing import (
+        ArrayLike,
+        Character,
+        CornerChoice,
+        Effort,
+        Ends,
+        FloatArray,
+        Form,
+        Loss,
+    )
     from shapespline.values import Fit, Piece, Regularity
 
-# Of the tolerance: points of two contours that are no farther apart are one point of a boundary.
-SNAP_PART = 0.01
+# Of the tolerance: points of two contours that are no farther apart are one point of a boundary;
+# of the largest contour, where there is none.
+SNAP_PART, ROUNDING = 0.01, 1e-12
 
 
 def fit_shape(
@@ -76,7 +86,7 @@ def fit_shape(
         See `fit_curve`; of several contours a length, the error of all points.
     shared_boundaries : bool
         Fit boundaries that contours share (the same points, as far as a hundredth of the
-        tolerance) once: their pieces are the same in both to the bit. Needs a tolerance.
+        tolerance, or a rounding) once: their pieces are the same in both to the bit.
     progress : callable, optional
         Called with the number of curves done and of all, before each and at the end.
 
@@ -143,27 +153,14 @@ class DrawingRequest:
     def of(cls, shape: Shape, settings: Settings, shared_boundaries: object) -> DrawingRequest:
         """The request, checked; a tolerance in per cent is one of the whole shape's box."""
         shared = checked_flag("shared_boundaries", shared_boundaries)
-        if shared and (settings.tolerance is None or settings.outliers):
-            raise InvalidInputError("shared_boundaries need a tolerance, and exclude outliers")
+        if shared and (settings.n_control_points is not None or settings.outliers):
+            raise InvalidInputError(
+                "shared_boundaries exclude n_control_points and outliers: give a tolerance, or none"
+            )
         if shared and settings.smoothness == 2:
             raise InvalidInputError(
                 "smoothness=2 does not act with shared_boundaries: borders meet where they must"
             )
-        if shared:
-            if (
-                settings.character == "drawn"
-                or settings.simplify
-                or settings.regularities
-                not in (
-                    "auto",
-                    None,
-                )
-            ):
-                raise InvalidInputError(
-                    "character='drawn', regularities and simplify do not act with"
-                    " shared_boundaries, whose ends are where outlines meet: leave them out"
-                )
-            settings = replace(settings, character="fewest", regularities="auto")
         if settings.sigma is not None and len(shape) > 1 and np.ndim(settings.sigma):
             raise InvalidInputError(
                 f"sigma must be one length for the {len(shape)} contours of a shape, got shape"
@@ -173,6 +170,12 @@ class DrawingRequest:
             everything = Contour.silently(np.concatenate([c.points for c in shape]), closed=False)
             settings = replace(settings, tolerance=tolerance_length(settings.tolerance, everything))
         return cls(shape, settings, shared)
+
+    @property
+    def length(self) -> float | None:
+        """The tolerance as a length."""
+        tolerance = self.settings.tolerance
+        return None if tolerance is None else tolerance_length(tolerance, self.shape.contours[0])
 
     def of_contour(self, index: int) -> Request:
         """The request for one contour; an error tells which one it is."""
@@ -199,24 +202,25 @@ def _solved(
     def monitor() -> Monitor:
         return Monitor(callback, request.settings.time_limit)
 
-    def ask(sub_request: Request) -> Fit:
-        return answer(sub_request, monitor())
-
     if request.shared_boundaries:
-        return _with_shared(request, monitor, progress), ()
+        return _with_shared(request, monitor, progress)
     requests = [request.of_contour(index) for index in range(len(request.shape))]
     fits = _one_by_one(requests, monitor, progress)
     if request.settings.n_control_points is not None:
         return fits, ()
-    allowed = requests[0].style.regularities
-    tolerance = request.settings.tolerance
-    if tolerance is not None:
-        tolerance = tolerance_length(tolerance, request.shape.contours[0])
+    return _together(fits, requests[0], request.length, monitor)
+
+
+def _together(
+    fits: list[Fit], asked: Request, tolerance: float | None, monitor: Callable[[], Monitor]
+) -> tuple[list[Fit], tuple[Regularity, ...]]:
+    """Fits under what they keep together, uncrossed; and what that is."""
+    allowed = asked.style.regularities
     fits, found = across_outlines(fits, allowed, tolerance)
-    if requests[0].style.character == "drawn" and "equal-copies" in allowed:
+    if asked.style.character == "drawn" and "equal-copies" in allowed:
         fits, equal = equal_copies(fits, tolerance)
         found += equal
-    apart = uncrossed(fits, requests[0], ask)
+    apart = uncrossed(fits, asked, lambda part: answer(part, monitor()))
     same = {k for k, (one, now) in enumerate(zip(fits, apart, strict=True)) if one is now}
     return apart, tuple(one for one in found if same.issuperset(one.pieces))
 
@@ -239,35 +243,65 @@ def _with_shared(
     request: DrawingRequest,
     monitor: Callable[[], Monitor],
     progress: Callable[[int, int], object],
-) -> list[Fit]:
-    """Fits of all contours, boundaries that they share fitted once."""
-    shape, settings = request.shape, request.settings
-    tolerance = tolerance_length(settings.tolerance or 0.0, shape.contours[0])
-    snap = SNAP_PART * tolerance
+) -> tuple[list[Fit], tuple[Regularity, ...]]:
+    """Fits of all contours, boundaries that they share fitted once; and what they keep together."""
+    shape, tolerance = request.shape, request.length
+    extent = max(contour.box_diagonal for contour in shape)
+    snap = ROUNDING * extent if tolerance is None else SNAP_PART * tolerance
     arcs = shared_arcs(shape.contours, snap)
-    of_arcs = replace(settings, tolerance=tolerance - snap, ends="fixed", symmetric=False)
-    borders = [
-        Request.of(Contour.silently(points, closed), None, of_arcs)
-        for points, closed in zip(arcs.points, arcs.closed, strict=True)
+    within = None if tolerance is None else tolerance - snap
+    settings = replace(request.settings, tolerance=within, symmetric=False)
+    # Whose each border is: of the first contour that it bounds, which may share nothing.
+    users = {use.arc: k for k, uses in reversed([*enumerate(arcs.uses)]) for use in uses}
+    alone = [k for k, uses in enumerate(arcs.uses) if not uses]
+    rings = [arc for arc, closed in enumerate(arcs.closed) if closed]
+    between = [arc for arc, closed in enumerate(arcs.closed) if not closed]
+    requests = [request.of_contour(k) for k in alone]
+    for arc in (*rings, *between):
+        border = _border(arcs.points[arc], arcs.closed[arc], shape.contours[users[arc]])
+        ends: Ends = settings.ends if arcs.closed[arc] else "fixed"
+        requests.append(Request.of(border, None, replace(settings, ends=ends)))
+    fits = _one_by_one(requests, monitor, progress)
+    n_whole = len(alone) + len(rings)
+    whole, found = _together(fits[:n_whole], requests[0], tolerance, monitor)
+    curves = dict(zip((*rings, *between), whole[len(alone) :] + fits[n_whole:], strict=True))
+    own = dict(zip(alone, whole, strict=False))
+    of_contours = [
+        _around(contour, [(curves[use.arc], use.backwards) for use in uses], tolerance)
+        if uses
+        else own[k]
+        for k, (contour, uses) in enumerate(zip(shape, arcs.uses, strict=True))
     ]
-    curves = _one_by_one(borders, monitor, progress)
-    fits = []
-    for index, (contour, uses) in enumerate(zip(shape, arcs.uses, strict=True)):
-        if not uses:
-            fits.append(solve(request.of_contour(index), monitor()))
-            continue
-        first = curves[uses[0].arc]
-        sections: tuple[Piece, ...] = ()
-        if arcs.closed[uses[0].arc] and not first.sections:
-            spline = reversed_curve(first.spline) if uses[0].backwards else first.spline
-        else:
-            for use in uses:
-                pieces = curves[use.arc].pieces
-                sections += backwards(pieces) if use.backwards else pieces
-            spline = joined(sections, settings.degree)
-        fits.append(
-            verified_fit(
-                contour, spline, tolerance=tolerance, method=first.method, sections=sections
-            )
-        )
-    return fits
+    where = alone + [users[arc] for arc in rings]
+    return of_contours, tuple(
+        one._replace(pieces=tuple(where[k] for k in one.pieces)) for one in found
+    )
+
+
+def _border(points: FloatArray, closed: bool, contour: Contour) -> Contour:
+    """The points of a border as known as those of a contour that it bounds."""
+    traced = contour.level_line is not None
+    return Contour.silently(
+        points, closed, accuracy=contour.accuracy, level_line=points if traced else None
+    )
+
+
+def _around(contour: Contour, borders: Sequence[tuple[Fit, bool]], tolerance: float | None) -> Fit:
+    """The fit of a contour from those of its borders, and whether each is run backwards."""
+    first, backward = borders[0]
+    sections: tuple[Piece, ...] = ()
+    kept: list[Regularity] = []
+    if first.contour.closed and not first.sections:
+        spline = reversed_curve(first.spline) if backward else first.spline
+    else:
+        for border, turned in borders:
+            own, begin = border.pieces, len(sections)
+            sections += backwards(own) if turned else own
+            places = range(len(own) - 1, -1, -1) if turned else range(len(own))
+            kept += [
+                one._replace(pieces=tuple(begin + places[k] for k in one.pieces))
+                for one in border.regularities
+            ]
+        spline = joined(sections, first.degree)
+    fit = verified_fit(contour, spline, tolerance=tolerance, method=first.method, sections=sections)
+    return replace(fit, regularities=tuple(kept))

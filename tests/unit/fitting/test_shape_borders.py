@@ -82,16 +82,70 @@ def test_open_lines_that_run_together():
     assert all(fit.kept for fit in drawing)
 
 
-def test_what_is_drawn_does_not_act_on_shared_boundaries():
-    shape = ss.Shape([ss.Contour(on_circle(40), closed=True)])
-    for said in ({"character": "drawn"}, {"simplify": True}, {"regularities": ["tangent"]}):
-        with pytest.raises(ss.InvalidInputError, match="do not act with shared_boundaries"):
-            ss.fit_shape(shape, tolerance=0.01, shared_boundaries=True, **said)
+def slotted(x, y):
+    """A plate with a round hole and its filling, and a copy of the plate beside, all traced."""
+    hole = on_circle(90, radius=4.0, centre=(x + 10, y + 8))
+    plate = np.concatenate(
+        [
+            np.column_stack([x + np.arange(0, 20, 0.5), np.full(40, y)]),
+            np.column_stack([np.full(32, x + 20.0), y + np.arange(0, 16, 0.5)]),
+            np.column_stack([x + np.arange(20, 0, -0.5), np.full(40, y + 16.0)]),
+            np.column_stack([np.full(32, float(x)), y + np.arange(16, 0, -0.5)]),
+        ]
+    )
+    rings = (plate, hole[::-1], hole)
+    return [ss.Contour(one, True, accuracy=0.02, level_line=one) for one in rings]
 
 
-def test_shared_boundaries_need_a_tolerance():
-    with pytest.raises(ss.InvalidInputError, match="shared_boundaries need a tolerance"):
-        ss.fit_shape(ss.Shape(cells()), shared_boundaries=True)
+@pytest.mark.parametrize("tolerance", [None, 0.1])
+def test_shared_boundaries_are_given_back_as_drawn(tolerance):
+    contours = [*slotted(0, 0), *slotted(40.003, 2)]
+    shape = ss.Shape(contours, [-1, 0, -1, -1, 3, -1])
+    drawing = ss.fit_shape(shape, tolerance=tolerance, shared_boundaries=True)
+    plain = ss.fit_shape(shape, tolerance=tolerance)
+    assert [fit.n_stored_points for fit in drawing] == [fit.n_stored_points for fit in plain]
+    circles = [drawing.fits[k].pieces[0].arc for k in (1, 2, 4, 5)]
+    assert len({arc.radius for arc in circles}) == 1
+    for hole, filling in ((1, 2), (4, 5)):
+        assert_array_equal(*(drawing.fits[k].pieces[0].arc.centre for k in (hole, filling)))
+    for k in (0, 3):
+        lines = drawing.fits[k].pieces
+        level = {i for one in drawing.fits[k].regularities for i in one.pieces
+                 if one.name == "axis-parallel"}  # fmt: skip
+        assert [piece.kind for piece in lines] == ["line"] * 4
+        assert level == {0, 1, 2, 3}
+        assert all((np.ptp(piece.control_points, axis=0) == 0).any() for piece in lines)
+    # What outlines keep together is told of those that a border was first met in.
+    together = {(one.name, one.pieces) for one in drawing.regularities}
+    assert ("equal-radius", (1, 4)) in together
+
+
+def test_regularities_of_a_border_that_is_run_backwards_are_those_of_its_pieces():
+    (square, _, _) = slotted(0, 0)
+    turned = ss.Contour(square.points[::-1], True, accuracy=0.02, level_line=square.points[::-1])
+    drawing = ss.fit_shape(ss.Shape([square, turned]), tolerance=0.1, shared_boundaries=True)
+    for fit in drawing:
+        for one in fit.regularities:
+            if one.name == "axis-parallel":
+                ends = [fit.pieces[k].control_points for k in one.pieces]
+                assert all((points[0] == points[-1]).any() for points in ends)
+        assert any(one.name == "axis-parallel" for one in fit.regularities)
+
+
+def test_shared_boundaries_exclude_what_is_not_of_one_border():
+    for said in ({"n_control_points": 20}, {"tolerance": 0.1, "outliers": True}):
+        with pytest.raises(ss.InvalidInputError, match="shared_boundaries exclude"):
+            ss.fit_shape(ss.Shape(cells()), shared_boundaries=True, **said)
+
+
+def test_a_map_without_a_tolerance_keeps_its_borders():
+    drawing = ss.fit_shape(ss.Shape(cells()), shared_boundaries=True)
+    ring, hole = drawing.fits[4].spline, drawing.fits[5].spline
+    assert_array_equal(np.sort(ring.control_points, axis=0), np.sort(hole.control_points, axis=0))
+    ends = {p.control_points[0].tobytes() for fit in drawing.fits[:4] for p in fit.pieces}
+    assert all(
+        p.control_points[-1].tobytes() in ends for fit in drawing.fits[:4] for p in fit.pieces
+    )
 
 
 @pytest.mark.slow
