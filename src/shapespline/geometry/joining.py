@@ -22,9 +22,10 @@ if TYPE_CHECKING:
 
     from shapespline.typing import FloatArray
 
-# Control points beside a node that are closer to it than this part of the others, or parameter
-# intervals that differ by more, leave the node a full knot.
-LARGEST_RATIO = 1e5
+# Control points beside a node that are closer to it than this part of the others leave the node a
+# full knot; so does a parameter interval so many times as long, or short, as the piece asks for
+# (GEO-11).
+LARGEST_RATIO, MOST_UNEVEN = 1e5, 10.0
 # Parameter intervals are at least this part of all, so that their sums can be told apart (GEO-08).
 LEAST_PART = 1e-12
 
@@ -79,8 +80,7 @@ def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
     if degree is None:
         degree = max(piece.degree for piece in pieces)
     raised = [elevated(piece, degree) for piece in pieces]
-    smooth = [False] + [_c1_possible(a, b) for a, b in pairwise(raised)]
-    widths = _interval_widths(raised, smooth)
+    widths, smooth = _intervals(raised)
     total = sum(widths)
     if min(widths) < LEAST_PART * total:
         smooth = [False] * len(raised)
@@ -112,19 +112,29 @@ def _c1_possible(before: Piece, after: Piece) -> bool:
     )
 
 
-def _interval_widths(pieces: Sequence[Piece], smooth: Sequence[bool]) -> list[float]:
-    """Parameter widths: polygon lengths, scaled along smooth chains so that speeds agree."""
-    widths: list[float] = []
-    for i, piece in enumerate(pieces):
-        if smooth[i]:
-            before, degree = pieces[i - 1], piece.degree
-            gap_before = widths[-1] * (before.knots[-degree - 1] - before.knots[-degree - 2])
-            u, v = hypot(*_last_leg(before)), hypot(*_first_leg(piece))
-            gap = piece.knots[degree + 1] - piece.knots[degree]
-            widths.append(float(gap_before * v / u / gap))
-        else:
-            widths.append(piece.polygon_length)
-    return widths
+def _intervals(pieces: Sequence[Piece]) -> tuple[list[float], list[bool]]:
+    """Parameter widths, and which pieces go on from the one before as fast as it ends.
+
+    Widths are polygon lengths, scaled along smooth chains so that speeds agree; a piece that would
+    be so much faster or slower than its length asks for begins a chain of its own (GEO-11).
+    """
+    widths, smooth = [pieces[0].polygon_length], [False]
+    for before, piece in pairwise(pieces):
+        length, goes_on = piece.polygon_length, _c1_possible(before, piece)
+        width = _as_fast(before, piece, widths[-1]) if goes_on else length
+        even = length <= MOST_UNEVEN * width and width <= MOST_UNEVEN * length
+        smooth.append(goes_on and even)
+        widths.append(width if even else length)
+    return widths, smooth
+
+
+def _as_fast(before: Piece, piece: Piece, width: float) -> float:
+    """Width of a piece that begins as fast as the one before, of that width, ends."""
+    degree = piece.degree
+    gap_before = width * (before.knots[-degree - 1] - before.knots[-degree - 2])
+    u, v = hypot(*_last_leg(before)), hypot(*_first_leg(piece))
+    gap = piece.knots[degree + 1] - piece.knots[degree]
+    return float(gap_before * v / u / gap)
 
 
 def elevated(piece: Piece, degree: int) -> Piece:

@@ -76,3 +76,21 @@ def test_the_highest_degree_is_enough(rng_pieces):
 def test_lines_only_make_a_spline_of_degree_one():
     whole = joined([piece(LINE, [(0, 0), (1, 0)]), piece(LINE, [(1, 0), (1, 1)])], 1)
     assert whole.control_points.tolist() == [[0, 0], [1, 0], [1, 1]]
+
+
+@pytest.mark.parametrize("leg", [4.0, 0.2, 0.01, 1e-9])
+def test_no_piece_rushes_past(leg):
+    """However near to a smooth joint the next control point lies, each piece has its share."""
+    line = piece(LINE, [(0, 0), (30, 0)])
+    bow = piece(CUBIC, [(30, 0), (30 + leg, 0), (60, 5), (60, 30)])
+    after = piece(LINE, [(60, 30), (60, 60)])
+    curve = joined([line, bow, after], 3)
+    x, y = curve(np.linspace(0, 1, 2001)).T
+    on_bow = (x > 30) & (y < 30)
+    lengths = [part.polygon_length for part in (line, bow, after)]
+    # A tenth of the share, of which the other two may have ten times theirs.
+    assert on_bow.mean() > lengths[1] / sum(lengths) / 100
+    breaks, counts = np.unique(curve.knots, return_counts=True)
+    assert np.diff(breaks).min() > 0.003
+    # Only where the next control point is near is the joint a full knot.
+    assert counts[1] == (2 if leg > 1 else 3)
