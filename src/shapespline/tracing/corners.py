@@ -64,6 +64,7 @@ def sharpened(
     drawn: Sequence[bool],
     field: Field,
     soft: Softness,
+    inks: FloatArray,
 ) -> list[FloatArray]:
     """Outlines with the corners that the picture shows; all others as they are.
 
@@ -78,12 +79,14 @@ def sharpened(
         keep the corners that they have.
     field : Field
     soft : Softness
+    inks : ndarray, shape (n,)
+        What the ink of each is worth, of that of the picture.
     """
     reach = AROUND + round(soft.blur)
     uncertain = UNCERTAIN + UNCERTAIN_BLUR * soft.blur + 3 * field.noise * (2 * reach + 1)
 
     def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
-        missing = _missing(corners.points, tried, field, soft.blur, reach)
+        missing = _missing(corners.points, tried, field, soft.blur, reach, inks[corners.own])
         return np.abs(missing) <= uncertain + rounded_off(corners)
 
     return put_back(outlines, level_lines, drawn, [True] * len(outlines), fit, soft)
@@ -232,7 +235,12 @@ def around(
 
 
 def _missing(
-    at: FloatArray, outlines: Sequence[FloatArray], field: Field, blur: float, reach: int
+    at: FloatArray,
+    outlines: Sequence[FloatArray],
+    field: Field,
+    blur: float,
+    reach: int,
+    inks: FloatArray,
 ) -> FloatArray:
     """Ink around each corner that the picture has and blurred outlines do not, square pixels."""
     height, width = field.shape
@@ -240,13 +248,13 @@ def _missing(
     margin = ceil(BLURRED * blur)
     shown = (slice(None), *(slice(margin, margin + 2 * reach + 1),) * 2)
     missing = []
-    for some in np.array_split(at, len(at) // TOGETHER + 1):
-        r, c, inside = around(some, field.shape, reach + margin)
+    for some in np.array_split(np.arange(len(at)), len(at) // TOGETHER + 1):
+        r, c, inside = around(at[some], field.shape, reach + margin)
         drawn = covered.at(np.clip(r, 0, height - 1), np.clip(c, 0, width - 1), width)
         if blur:
             from scipy.ndimage import gaussian_filter  # which takes a while to load
 
             drawn = gaussian_filter(drawn, blur, axes=(1, 2), radius=margin)
-        more = field.ink(r[shown], c[shown]) - drawn[shown]
+        more = field.ink(r[shown], c[shown]) / inks[some, None, None] - drawn[shown]
         missing.append(np.where(inside[shown], more, 0.0).sum(axis=(1, 2)))
     return np.concatenate(missing)

@@ -9,6 +9,7 @@ import numpy as np
 from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
 from shapespline.tracing.edges import drawn_shares, level_shares, no_edges
+from shapespline.tracing.inks import half_way, inks_of
 from shapespline.tracing.softness import Softness
 
 if TYPE_CHECKING:
@@ -49,15 +50,20 @@ def drawn_lines(
     used = np.concatenate(loops)
     part = found.chosen(used)
     say(f"placing {len(used)} points of edges")
-    soft = Softness.of(field, part)
+    inks = inks_of(field, part, list(map(len, loops)))
+    ink_of_each = np.repeat(inks, list(map(len, loops)))
+    soft = Softness.of(field, part, ink_of_each)
     shares = level_shares(field, part)
-    edges = no_edges(shares) if soft.on_level else drawn_shares(field, part, shares)
+    if soft.on_level:
+        edges = no_edges(half_way(field, part, shares, ink_of_each))
+    else:
+        edges = drawn_shares(field, part, shares)
     places_drawn = part.places(height, edges.shares)
     at_rim = part.at_rim(height, width)
     midway = np.abs(shares - 0.5) < 1e-9
     outlines, level_lines, accuracies = [], [], []
     begin = 0
-    for loop in loops:
+    for loop, ink in zip(loops, inks.tolist(), strict=True):
         own = slice(begin, begin + len(loop))
         begin += len(loop)
         across = _across(places[loop], part.upright[own])
@@ -71,7 +77,9 @@ def drawn_lines(
         if _is_one_bit(flat, upright[inner]):
             accuracy = ONE_BIT_ACCURACY
         points = places_drawn[own]
-        if accuracy == DRAWN_ACCURACY and len(loop) >= FEW_POINTS:
+        if len(loop) >= FEW_POINTS and (
+            accuracy == DRAWN_ACCURACY or (soft.on_level and ink != 1.0)
+        ):
             told = (across >= LEAST_ACROSS) | ~inner
             points = _bent(points[told], part.upright[own][told], edges.known[own][told])
             points = np.clip(points, 0, (width, height))
@@ -83,7 +91,7 @@ def drawn_lines(
     worst = soft.accuracy if soft.shows_corners(field.noise) else DRAWN_ACCURACY
     drawn = [accuracy in (DRAWN_ACCURACY, worst) for accuracy in accuracies]
     say(f"looking for the corners of {len(outlines)} outlines")
-    outlines = sharpened(outlines, level_lines, drawn, field, soft)
+    outlines = sharpened(outlines, level_lines, drawn, field, soft, inks)
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
 
 

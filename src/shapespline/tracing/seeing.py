@@ -18,6 +18,7 @@ from shapespline.monitor import silent
 from shapespline.tracing.crossings import Crossings, crossings
 from shapespline.tracing.falloff import without_falloff
 from shapespline.tracing.field import Field
+from shapespline.tracing.inks import cut_between_inks, softness_of
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import halfway_to_other, noise_deviation, picture_level
 from shapespline.tracing.lighting import (
@@ -36,7 +37,6 @@ from shapespline.tracing.pixels import (
     rim,
     validated_pixels,
 )
-from shapespline.tracing.softness import Softness
 from shapespline.validation import is_number
 
 if TYPE_CHECKING:
@@ -91,9 +91,18 @@ class Seeing:
         A warning tells if the level was found to have to follow the light.
         """
         pixels = cropped(validated_pixels(image), self.crop)
-        if self.local == "auto" and self.level is None and self.color is None:
+        free = self.local == "auto" and self.level is None and self.color is None
+        if free:
             pixels = evened(pixels, say)
         say("looking for ink")
+        field, found = self._cut(pixels, say)
+        between = cut_between_inks(field, found) if free else None
+        if between is None:
+            return field, found
+        return between, crossings(between, say)
+
+    def _cut(self, pixels: NDArray[Any], say: Say) -> tuple[Field, Crossings]:
+        """Where one level parts ink and ground, or one that follows the light."""
         values, light, differs = self._values(pixels)
         if is_number(self.local):
             field = cut_field(evenly_lit(values, light, float(self.local)), light)
@@ -140,7 +149,7 @@ class Seeing:
 
         Colours are seen by every other pixel, and kept so by JPEG (TRC-21).
         """
-        if not Softness.of(field, found).blur:
+        if not softness_of(field, found).blur:
             return field, found
         try:
             values, light, _ = replace(self, channel="grey")._values(pixels)

@@ -50,10 +50,11 @@ class Softness(NamedTuple):
     scatter: float = 0.0
 
     @classmethod
-    def of(cls, field: Field, found: Crossings) -> Softness:
-        """Of a picture, told by its edges."""
-        part = found.chosen(np.flatnonzero(~found.at_rim(*field.shape)))
-        part = part.chosen(np.arange(0, len(part.row), len(part.row) // ENOUGH + 1))
+    def of(cls, field: Field, found: Crossings, inks: FloatArray) -> Softness:
+        """Of a picture, told by its edges; ``inks`` are what the ink of each is worth."""
+        index = np.flatnonzero(~found.at_rim(*field.shape))
+        index = index[:: len(index) // ENOUGH + 1]
+        part, ink = found.chosen(index), inks[index]
         before, behind = (
             field.coverage(
                 part.row + np.where(part.upright, 0, side),
@@ -61,7 +62,8 @@ class Softness(NamedTuple):
             )
             for side in (-1, 1)
         )
-        return cls.told(profiles_across(field, part), behind - before, field.noise)
+        profiles = profiles_across(field, part) / ink[:, None]
+        return cls.told(profiles, (behind - before) / ink, field.noise)
 
     @classmethod
     def told(cls, profiles: FloatArray, beside: FloatArray, noise: float) -> Softness:
@@ -106,8 +108,8 @@ SHARP = Softness()
 def _blur(profiles: FloatArray, beside: FloatArray, noise: float) -> float | None:
     """0 where edges are sharp; None where too few are plain."""
     even = EVEN + EVEN_NOISE * noise
-    plain = (np.abs(profiles[:, :2]) <= even).all(axis=1)
-    plain &= (np.abs(profiles[:, -2:] - 1.0) <= even).all(axis=1)
+    off = np.concatenate([profiles[:, :2], profiles[:, -2:] - 1.0], axis=1)
+    plain = (np.abs(off) <= even).all(axis=1)
     steps = np.diff(profiles, axis=1)
     across, along = steps[:, REACH - 1], 0.5 * beside
     with np.errstate(divide="ignore", invalid="ignore"):

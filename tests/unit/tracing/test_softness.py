@@ -9,9 +9,10 @@ from tests.support.rendering import coverage, polygon
 
 from shapespline.tracing import trace
 from shapespline.tracing.crossings import crossings
+from shapespline.tracing.inks import softness_of
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.seeing import cut_field
-from shapespline.tracing.softness import SHARP, Softness
+from shapespline.tracing.softness import SHARP
 
 QUADRILATERAL = np.array([(22.3, 20.7), (100.1, 28.2), (92.4, 98.8), (34.2, 90.6)])
 SHAPES = {
@@ -29,7 +30,7 @@ def scanned(inside, blur, grain=0.5, size=120, seed=0):
 
 def softness(image):
     field = cut_field(Layer(image), False)
-    return Softness.of(field, crossings(field))
+    return softness_of(field, crossings(field))
 
 
 @pytest.mark.parametrize("blur", [0.7, 1.0, 1.5])

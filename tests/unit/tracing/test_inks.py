@@ -1,0 +1,73 @@
+"""Two inks in one blurred picture: each outline lies half-way to its own ink."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.ndimage import gaussian_filter
+from tests.support.rendering import coverage
+
+from shapespline.tracing import trace
+
+SIZE = 120
+# Middles, radii and greys: two discs, a thin ring in the darker ink, on paper of 240.
+PAPER = 240.0
+DISCS = {(35.3, 80.2): (22.0, 30.0), (88.6, 84.7): (20.0, 120.0)}
+RING, WIDTH, DARK = ((60.4, 30.1), 20.0), 3.6, 30.0
+
+
+def seen(blur, dark=DARK, seed=0):
+    picture = np.full((SIZE, SIZE), PAPER)
+    for (x0, y0), (radius, grey) in DISCS.items():
+        inside = coverage(lambda x, y: np.hypot(x - x0, y - y0) <= radius, SIZE, SIZE)  # noqa: B023
+        picture += inside * ((dark if grey == DARK else grey) - PAPER)
+    (x0, y0), radius = RING
+    inside = coverage(
+        lambda x, y: np.abs(np.hypot(x - x0, y - y0) - radius) <= WIDTH / 2, SIZE, SIZE
+    )
+    picture += inside * (dark - PAPER)
+    noise = np.random.default_rng(seed).normal(0.0, 1.0, picture.shape)
+    return np.rint(gaussian_filter(picture, blur) + noise).astype(np.uint8)
+
+
+def radii(shape, middle):
+    """Mean radius of the outlines around a point, smallest first."""
+    around = [c for c in shape if np.hypot(*(c.points.mean(axis=0) - middle)) < 2]
+    return sorted(float(np.hypot(*(c.points - middle).T).mean()) for c in around)
+
+
+@pytest.mark.parametrize("blur", [0.8, 1.0, 1.5])
+def test_outlines_of_both_inks_lie_where_they_were_drawn(blur):
+    shape = trace(seen(blur))
+    for middle, (radius, _) in DISCS.items():
+        (found,) = radii(shape, middle)
+        # A level line of a disc of radius r blurred by s is s^2 / (2 r) inside it.
+        assert found == pytest.approx(radius - blur**2 / (2 * radius), abs=0.02)
+    middle, radius = RING
+    inner, outer = radii(shape, middle)
+    # Where both edges add up, the level line of the ring is a little inside both.
+    assert outer - inner == pytest.approx(WIDTH, abs=0.05 if blur < 1.2 else 0.5)
+    assert 0.5 * (inner + outer) == pytest.approx(radius, abs=0.02 + blur**2 / (2 * inner))
+
+
+def test_one_level_for_both_is_off():
+    """What the test above would find if the picture's own level were taken, and so why."""
+    picture = seen(1.0)
+    level = 0.5 * (PAPER + 120.0)
+    discs = [radii(trace(picture, level=level), middle)[0] for middle in DISCS]
+    assert discs[0] > 22.0 + 0.2
+
+
+def test_one_ink_is_left_as_it_is():
+    from shapespline.tracing.crossings import crossings
+    from shapespline.tracing.inks import half_way, inks_of
+    from shapespline.tracing.layer import Layer
+    from shapespline.tracing.seeing import cut_field
+
+    field = cut_field(Layer(seen(1.0, dark=120.0)), light=False)
+    found = crossings(field)
+    part = found.chosen(np.concatenate(found.loops))
+    inks = inks_of(field, part, [len(loop) for loop in found.loops])
+    assert (inks == 1.0).all()
+    shares = np.full(len(part.row), 0.25)
+    assert (half_way(field, part, shares, np.ones(len(shares))) == 0.25).all()
