@@ -14,7 +14,7 @@ import numpy as np
 
 from shapespline.tracing.edges import REACH, profiles_across
 from shapespline.tracing.level import picture_level
-from shapespline.tracing.softness import Softness
+from shapespline.tracing.softness import ENOUGH, Softness
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -78,8 +78,9 @@ def softness_of(field: Field, found: Crossings) -> Softness:
 
 
 def _long(field: Field, found: Crossings) -> tuple[Crossings, FloatArray]:
-    """Crossings of long outlines, and the ink of each."""
+    """Crossings of long outlines, as many as tell enough, and the ink of each."""
     loops = [loop for loop in found.loops if len(loop) >= LONG]
+    loops = loops[:: sum(map(len, loops)) // ENOUGH + 1]
     lengths = [len(loop) for loop in loops]
     part = found.chosen(np.concatenate([np.empty(0, dtype=np.int64), *loops]))
     return part, np.repeat(inks_of(field, part, lengths), lengths)
