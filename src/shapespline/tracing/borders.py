@@ -14,6 +14,8 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 OUTSIDE = -1
@@ -87,34 +89,32 @@ class Ring(NamedTuple):
         return np.concatenate(parts)
 
 
-def borders_of(labels: IntArray) -> Borders:
+def borders_of(labels: NDArray[np.signedinteger]) -> Borders:
     """Crossings and junctions of a picture of labels, its rim included."""
     height, width = labels.shape
     padded = np.pad(labels, 1, constant_values=OUTSIDE)
     beside, below = padded[:, :-1] != padded[:, 1:], padded[:-1] != padded[1:]
-    numbers = [np.full(side.shape, -1, dtype=np.int64) for side in (beside, below)]
-    count = int(beside.sum())
-    numbers[0][beside] = np.arange(count)
-    numbers[1][below] = count + np.arange(int(below.sum()))
     places = [np.nonzero(side) for side in (beside, below)]
+    count = len(places[0][0])
     row, column = (np.concatenate([p[k] for p in places]) for k in (0, 1))
     upright = np.arange(len(row)) >= count
-    nodes = Nodes(
-        row - 1, column - 1, upright, padded[row, column], padded[row + upright, column + ~upright]
-    )
+    labelled = (padded[row, column], padded[row + upright, column + ~upright])
+    nodes = Nodes(row - 1, column - 1, upright, *(each.astype(np.int64) for each in labelled))
     links: list[list[int]] = [[] for _ in range(len(row))]
-    # Upper, right, lower and left side of each cell that something crosses.
-    sides = np.stack(
-        [numbers[0][:-1], numbers[1][:, 1:], numbers[0][1:], numbers[1][:, :-1]], axis=-1
+    # Cells that something crosses, and the numbers of what crosses their upper, right, lower and
+    # left side.
+    rows, columns = np.nonzero(beside[:-1] | below[:, 1:] | beside[1:] | below[:, :-1])
+    around = (
+        _numbers(beside, rows, columns),
+        _numbers(below, rows, columns + 1, count),
+        _numbers(beside, rows + 1, columns),
+        _numbers(below, rows, columns, count),
     )
-    crossed = (sides >= 0).sum(axis=-1)
+    sides = np.stack(around, axis=-1)
     cells: list[list[int]] = []
     corners: list[tuple[float, float]] = []
     pending: list[tuple[int, int]] = []
-    rows, columns = np.nonzero(crossed)
-    for r, c, four in zip(
-        rows.tolist(), columns.tolist(), sides[rows, columns].tolist(), strict=True
-    ):
+    for r, c, four in zip(rows.tolist(), columns.tolist(), sides.tolist(), strict=True):
         there = [node for node in four if node >= 0]
         if len(there) == 2 and r in (0, height) and c in (0, width):
             corners.append((float(c), float(height - r)))
@@ -142,7 +142,16 @@ def borders_of(labels: IntArray) -> Borders:
     return Borders(nodes, cells, corners, links)
 
 
-def _apart(padded: IntArray, r: int, c: int) -> tuple[tuple[int, int], tuple[int, int]] | None:
+def _numbers(crossed: BoolArray, row: IntArray, column: IntArray, first: int = 0) -> IntArray:
+    """Numbers of crossings at some places, from the first on, row by row; -1 where none is."""
+    there = np.flatnonzero(crossed)
+    number = first + np.searchsorted(there, row * crossed.shape[1] + column)
+    return np.where(crossed[row, column], number, -1)
+
+
+def _apart(
+    padded: NDArray[np.signedinteger], r: int, c: int
+) -> tuple[tuple[int, int], tuple[int, int]] | None:
     """Pairs of sides that belong together where two labels, each twice, meet by their corners.
 
     What there is less of around is joined.

@@ -16,11 +16,15 @@ from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.tracing.threads import LACKS, is_thread
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 MOST_COLORS = 64
+# Even pixels that tell the colours well enough, and pixels that are looked at together.
+SAMPLE, TOGETHER = 2_000_000, 1_000_000
 # Neighbours of an even pixel differ by no more, of 255 in each channel.
 EVEN = 10
 # "auto" finds no more colours than this; each has at least this part of the even pixels, and is at
@@ -40,7 +44,7 @@ class Palette(NamedTuple):
     """Colours, shape (k, 3), 0 to 255; and the index of one for each pixel, shape (h, w)."""
 
     colors: FloatArray
-    labels: IntArray
+    labels: NDArray[np.int8]
 
 
 def palette_of(pixels: NDArray[np.uint8], colors: int | str) -> Palette:
@@ -60,8 +64,8 @@ def palette_of(pixels: NDArray[np.uint8], colors: int | str) -> Palette:
         If it has one only.
     """
     even = _even(pixels)
-    flat = pixels[even] if even.sum() > 0.01 * even.size else pixels.reshape(-1, 3)
-    found = _with_thin(pixels, even, _chosen(flat, colors), colors)
+    told = even if even.sum() > 0.01 * even.size else np.ones_like(even)
+    found = _with_thin(pixels, even, _chosen(pixels, told, colors), colors)
     if colors != "auto" and len(found) < int(colors):
         raise InvalidInputError(
             f"colors asks for {colors}, but the picture has {len(found)} that are no mixtures of"
@@ -78,23 +82,36 @@ def _even(pixels: NDArray[np.uint8]) -> BoolArray:
     """Pixels that hardly differ from their eight neighbours."""
     from scipy import ndimage
 
-    spread = [
-        ndimage.maximum_filter(pixels[:, :, k], 3) - ndimage.minimum_filter(pixels[:, :, k], 3)
-        for k in range(3)
-    ]
-    return np.asarray(np.max(spread, axis=0) <= EVEN)
+    even = np.empty(pixels.shape[:2], dtype=bool)
+    for rows in _some_rows(even.shape):
+        above = max(rows.start - 1, 0)
+        seen = pixels[above : rows.stop + 1]
+        spread = [
+            ndimage.maximum_filter(channel, 3) - ndimage.minimum_filter(channel, 3)
+            for channel in np.moveaxis(seen, -1, 0)
+        ]
+        own = slice(rows.start - above, rows.stop - above)
+        even[rows] = np.max(spread, axis=0)[own] <= EVEN
+    return even
 
 
-def _chosen(flat: NDArray[np.uint8], colors: int | str) -> FloatArray:
-    """The colours of a palette, the most frequent first."""
+def _chosen(pixels: NDArray[np.uint8], told: BoolArray, colors: int | str) -> FloatArray:
+    """The colours of a palette of the pixels that tell it, the most frequent first."""
     from PIL import Image
 
     wanted = MOST_COLORS if colors == "auto" else int(colors)
-    codes = flat.astype(np.int64) @ (65536, 256, 1)
-    distinct, codes = np.unique(codes, return_inverse=True)
-    counts = np.bincount(codes)
+    step = int(told.sum()) // SAMPLE + 1
+    samples, codes, numbers = [], [], []
+    for rows in _some_rows(told.shape):
+        seen = pixels[rows][told[rows]]
+        samples.append(seen[::step])
+        code, times = np.unique(seen.astype(np.int64) @ (65536, 256, 1), return_counts=True)
+        codes.append(code)
+        numbers.append(times)
+    distinct, place = np.unique(np.concatenate(codes), return_inverse=True)
+    counts = np.bincount(place, np.concatenate(numbers)).astype(np.int64)
     exact = np.stack(np.divmod(distinct, 65536)[:1] + np.divmod(distinct % 65536, 256), axis=1)
-    image = Image.fromarray(flat.reshape(1, -1, 3))
+    image = Image.fromarray(np.concatenate(samples).reshape(1, -1, 3))
     most = min(wanted, len(distinct))
     if len(distinct) <= wanted:
         member = np.arange(len(distinct))
@@ -114,7 +131,7 @@ def _chosen(flat: NDArray[np.uint8], colors: int | str) -> FloatArray:
         classes.append((int(number.sum()), color))
     classes.sort(key=lambda item: (-item[0], *item[1]))
     if colors == "auto":
-        classes = _clearly_different(classes, len(flat))
+        classes = _clearly_different(classes, int(told.sum()))
     return np.array([color for _, color in classes])
 
 
@@ -126,12 +143,8 @@ def _with_thin(
     Those are pixels that no two colours of the palette mix to; of them the farthest from it.
     """
     most = AUTO_MOST if wanted == "auto" else int(wanted)
-    where = np.nonzero(~even)
-    values = pixels[where].astype(np.float64)
-    while len(values):
-        nearby = _nearby(even, _even_labels(pixels, even, colors), len(colors), where)
-        is_strange = _unmixed(values, nearby, colors)[1]
-        strange, nearby = values[is_strange], nearby[is_strange]
+    while True:
+        strange, nearby = _strange(pixels, even, colors)
         if len(strange) < max(THIN, THIN_PART * even.size):
             break
         nearby[~nearby.any(axis=1)] = True
@@ -150,21 +163,59 @@ def _with_thin(
     return colors
 
 
-def _even_labels(pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray) -> IntArray:
-    labels = np.zeros(even.shape, dtype=np.int64)
-    labels[even] = _nearest(pixels[even].astype(np.float64), colors)
+def _strange(
+    pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray
+) -> tuple[FloatArray, BoolArray]:
+    """Values that no two colours mix to, and which colours are near each."""
+    found, near = [np.empty((0, 3))], [np.empty((0, len(colors)), dtype=bool)]
+    for where, nearby in _uneven(even, _even_labels(pixels, even, colors), len(colors)):
+        values = pixels[where].astype(np.float64)
+        is_strange = _unmixed(values, nearby, colors)[1]
+        found.append(values[is_strange])
+        near.append(nearby[is_strange])
+    return np.concatenate(found), np.concatenate(near)
+
+
+def _even_labels(
+    pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray
+) -> NDArray[np.int8]:
+    labels = np.zeros(even.shape, dtype=np.int8)
+    for rows in _some_rows(even.shape):
+        own = even[rows]
+        labels[rows][own] = _nearest(pixels[rows][own].astype(np.float64), colors)
     return labels
 
 
-def _nearby(
-    even: BoolArray, labels: IntArray, count: int, where: tuple[IntArray, ...]
-) -> BoolArray:
-    """Which colours the even pixels around some have, shape (n, count)."""
-    from scipy import ndimage
+def _uneven(
+    even: BoolArray, labels: NDArray[np.int8], count: int
+) -> Iterator[tuple[tuple[IntArray, IntArray], BoolArray]]:
+    """Places of pixels that are not even, some at a time.
 
-    size = 2 * NEARBY + 1
-    found = [ndimage.maximum_filter(even & (labels == k), size)[where] for k in range(count)]
-    return np.stack(found, axis=1)
+    And which colours the even ones around each have, shape (n, count).
+    """
+    for rows in _some_rows(even.shape):
+        row, column = np.nonzero(~even[rows])
+        if len(row) == 0:
+            continue
+        above = max(rows.start - NEARBY, 0)
+        seen = slice(above, rows.stop + NEARBY)
+        # A bit for each colour.
+        bits = np.where(even[seen], np.uint64(1) << labels[seen].astype(np.uint64), np.uint64(0))
+        for side in (bits, bits.T):
+            alone = side.copy()
+            for step in range(1, NEARBY + 1):
+                side[step:] |= alone[:-step]
+                side[:-step] |= alone[step:]
+        near = bits[row + rows.start - above, column]
+        known = (near[:, None] >> np.arange(count, dtype=np.uint64)) & np.uint64(1)
+        yield (row + rows.start, column), known.astype(bool)
+
+
+def _some_rows(shape: tuple[int, ...]) -> Iterator[slice]:
+    """Rows of a picture, as many as are looked at together."""
+    step = max(1, TOGETHER // shape[1])
+    for begin in range(0, shape[0], step):
+        yield slice(begin, min(begin + step, shape[0]))
 
 
 def _clearly_different(
@@ -181,26 +232,28 @@ def _clearly_different(
 
 def _nearest(values: FloatArray, colors: FloatArray) -> IntArray:
     """Index of the nearest colour of each value."""
+    channels = np.ascontiguousarray(values.T)  # one after the other is twice as fast
     best = np.full(len(values), np.inf)
     index = np.zeros(len(values), dtype=np.int64)
     for k, color in enumerate(colors):
-        off = ((values - color) ** 2).sum(axis=1)
+        off = sum((channel - value) ** 2 for channel, value in zip(channels, color, strict=True))
         closer = off < best
-        best[closer], index[closer] = off[closer], k
+        np.copyto(best, off, where=closer)
+        index[closer] = k
     return index
 
 
-def _labels(pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray) -> IntArray:
+def _labels(pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray) -> NDArray[np.int8]:
     """Index of a colour for each pixel."""
     labels = _even_labels(pixels, even, colors)
-    where = np.nonzero(~even)
-    values = pixels[where].astype(np.float64)
-    nearby = _nearby(even, labels, len(colors), where)
-    labels[where], _, other, share = _unmixed(values, nearby, colors)
-    may_be = share >= 0.5 - LACKS
-    at = tuple(index[may_be] for index in where)
-    of_thread = _on_threads(pixels, at, colors[labels[at]], colors[other[may_be]])
-    labels[tuple(index[of_thread] for index in at)] = other[may_be][of_thread]
+    for where, nearby in _uneven(even, labels.copy(), len(colors)):
+        own, _, other, share = _unmixed(pixels[where].astype(np.float64), nearby, colors)
+        may_be = np.flatnonzero(share >= 0.5 - LACKS)
+        at = (where[0][may_be], where[1][may_be])
+        of_thread = _on_threads(pixels, at, colors[own[may_be]], colors[other[may_be]])
+        threads = may_be[of_thread]
+        own[threads] = other[threads]
+        labels[where] = own
     return labels
 
 
@@ -272,27 +325,34 @@ def merged(palette: Palette, least: float) -> tuple[Palette, int]:
     labels = palette.labels.copy()
     count = 0
     for _ in range(3):
-        parts = np.zeros(labels.shape, dtype=np.int64)
+        parts = np.zeros(labels.shape, dtype=np.int32)
         n_parts = 0
         for k in range(len(palette.colors)):
             own, n_own = ndimage.label(labels == k, np.ones((3, 3)))
-            parts = np.where(own > 0, own + n_parts, parts)
+            np.add(own, n_parts, out=own, where=own > 0)
+            parts += own
             n_parts += n_own
-        small = np.bincount(parts.ravel(), minlength=n_parts + 1) < least
+        sizes = np.zeros(n_parts + 1, dtype=np.int64)
+        for rows in _some_rows(labels.shape):
+            sizes += np.bincount(parts[rows].ravel(), minlength=n_parts + 1)
+        small = sizes < least
         small[0] = False
         if not small.any():
             break
         touching = _touching(parts, labels, small)
         count += len(touching)
-        target = np.full(n_parts + 1, -1)
+        target = np.full(n_parts + 1, -1, dtype=np.int8)
         for part, label in touching:
             target[part] = label
-        taken = target[parts]
-        labels = np.where(taken >= 0, taken, labels)
+        for rows in _some_rows(labels.shape):
+            taken = target[parts[rows]]
+            labels[rows] = np.where(taken >= 0, taken, labels[rows])
     return Palette(palette.colors, labels), count
 
 
-def _touching(parts: IntArray, labels: IntArray, small: BoolArray) -> list[tuple[int, int]]:
+def _touching(
+    parts: NDArray[np.int32], labels: NDArray[np.int8], small: BoolArray
+) -> list[tuple[int, int]]:
     """Small parts, each with the colour that it touches most."""
     pairs = []
     for a, b in (
