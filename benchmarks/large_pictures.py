@@ -3,6 +3,7 @@
     python -m benchmarks.large_pictures                     8000 x 8000 pixels, grey
     python -m benchmarks.large_pictures --side 20000        a mapped file that is never read whole
     python -m benchmarks.large_pictures --colour            red ink on white, three channels
+    python -m benchmarks.large_pictures --areas             the same as areas of colours
     python -m benchmarks.large_pictures --noise             all noise: ends in a sentence
 
 A sheet of words in letters of 30 to 400 pixels, anti-aliased. The picture lies in a file of its own
@@ -31,7 +32,7 @@ pixels = np.load(sys.argv[1], mmap_mode="r")
 ss.trace(np.kron(np.array([[0, 1], [1, 0]], dtype=np.uint8), np.full((20, 20), 255, np.uint8)))
 began = time.process_time()
 try:
-    shape = ss.trace(pixels)
+    shape = ss.trace(pixels, colors="auto" if "areas" in sys.argv else None)
     found = f"{len(shape)} outlines, {sum(map(len, shape))} points"
 except ss.ShapesplineError as error:
     found = str(error)
@@ -66,6 +67,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--side", type=int, default=8000)
     parser.add_argument("--colour", action="store_true")
+    parser.add_argument("--areas", action="store_true")
     parser.add_argument("--noise", action="store_true")
     chosen = parser.parse_args()
     side = chosen.side
@@ -73,7 +75,9 @@ def main() -> None:
         image = np.random.default_rng(0).integers(0, 256, (side, side), dtype=np.uint8)
     else:
         image = sheet(side)
-    if chosen.colour:
+    if chosen.areas:
+        image = np.stack([255 - (255 - image) // part for part in (4, 1, 1)], axis=2)
+    elif chosen.colour:
         image = np.stack([np.maximum(image, 200), image, image], axis=2)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "picture.npy"
@@ -81,7 +85,7 @@ def main() -> None:
         size = path.stat().st_size
         del image
         done = subprocess.run(
-            [sys.executable, "-c", TRACER, str(path)],
+            [sys.executable, "-c", TRACER, str(path), *(["areas"] if chosen.areas else [])],
             check=True, capture_output=True, text=True,
             env={**os.environ, "OMP_NUM_THREADS": "1"},
         )  # fmt: skip
