@@ -2,8 +2,9 @@
 
     python -m benchmarks.picture_peers
 
-Writes docs/figures/howto/pictures_peers.png. potrace and vtracer get the picture with their own
-options; a panel stays empty where one is not installed.
+Writes docs/figures/howto/pictures_peers.png, and photograph.png: a part of a photographed sign in
+colours. potrace and vtracer get the picture with their own options; a panel stays empty where one
+is not installed.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,6 +28,7 @@ from PIL import Image, ImageDraw, ImageFont
 import shapespline as ss
 from benchmarks.figure_style import save
 from benchmarks.howto_figures import TARGET, canvas
+from benchmarks.sign_maker import LARGER, drawn, photographed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,6 +37,8 @@ if TYPE_CHECKING:
 
 SIZE, FINE, TOLERANCE = (128, 64), 8, 0.15
 SAMPLES = np.linspace(0.0, 1.0, 17)
+# The sign that is photographed, and the part of it that is shown: left, right, lower, upper.
+SIGN, PART = 7, (150.0, 460.0, 130.0, 470.0)
 
 
 def logo() -> Image.Image:
@@ -78,11 +83,12 @@ def vtracer(source: Path, target: Path) -> None:
     program.convert_image_to_svg_py(str(source), str(target), colormode="binary")
 
 
-def show(axes: Axes, path: Path) -> int:
-    """Fill what is drawn, with its points; their number."""
+def show(axes: Axes, path: Path, size: tuple[int, int] = SIZE) -> int:
+    """Fill what is drawn, in its colours; the number of its points."""
     text = re.sub(r"<\?xml.*?\?>|<!DOCTYPE.*?>", "", path.read_text(), flags=re.DOTALL)
+    text = re.sub(r"<use [^>]*>", "", text)  # the seams beneath our areas
     drawing = svgelements.SVG.parse(io.StringIO(text), reify=True, ppi=72)
-    scale = SIZE[0] / float(drawing.width)
+    scale = size[0] / float(drawing.width)
     count = 0
     for element in drawing.elements(lambda item: isinstance(item, svgelements.Path)):
         vertices, codes = [], []
@@ -94,15 +100,50 @@ def show(axes: Axes, path: Path) -> int:
                 count += len([point for point in segment if point is not None]) - 1
                 own += [segment.point(t) for t in SAMPLES]
             if len(own) > 2:
-                vertices += [(scale * p.x, SIZE[1] - scale * p.y) for p in own]
+                vertices += [(scale * p.x, size[1] - scale * p.y) for p in own]
                 codes += [Outline.MOVETO, *[Outline.LINETO] * (len(own) - 1)]
         if vertices:
-            axes.add_patch(PathPatch(Outline(vertices, codes), color="black", linewidth=0))
+            color = element.fill.hexrgb or "black"
+            axes.add_patch(PathPatch(Outline(vertices, codes), color=color, linewidth=0))
     return count
 
 
+def photograph() -> None:
+    """A sign as it was photographed, and its areas by vtracer and by this package."""
+    picture, _ = photographed(drawn(SIGN, LARGER), SIGN)
+    size = (picture.shape[1], picture.shape[0])
+
+    def areas(source: Path, target: Path) -> None:
+        shape = ss.trace(source, colors="auto")
+        ss.write(target, ss.fit_shape(shape, shared_boundaries=True))
+
+    def peer(source: Path, target: Path) -> None:
+        import vtracer as program
+
+        program.convert_image_to_svg_py(str(source), str(target))
+
+    figure, panels = canvas(3)
+    figure.set_size_inches(13.5, 5.2)
+    panels[0].imshow(picture, extent=(0, size[0], 0, size[1]))
+    panels[0].set_title("a photograph", fontsize=13)
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("ignore", ss.PictureWarning)
+        source, target = Path(folder) / "sign.png", Path(folder) / "sign.svg"
+        Image.fromarray(picture).save(source)
+        for axes, name, run in ((panels[1], "vtracer", peer), (panels[2], "shapespline", areas)):
+            try:
+                run(source, target)
+                axes.set_title(f"{name}: {show(axes, target, size)} points", fontsize=13)
+            except ImportError:
+                axes.set_title(f"{name} is not installed", fontsize=13)
+    for axes in panels:
+        axes.set(xlim=PART[:2], ylim=PART[2:], aspect="equal")
+    save(figure, TARGET / "photograph.png", dpi=90)
+
+
 def main() -> None:
-    """Four panels."""
+    """Four panels, and three of the photograph."""
+    photograph()
     tracers: dict[str, Callable[[Path, Path], None]] = {
         "shapespline": ours, "potrace": potrace, "vtracer": vtracer,
     }  # fmt: skip

@@ -4,11 +4,11 @@
     python -m benchmarks.sign_maker -o DIR       and the pictures beside what was found, four times
 
 A photograph has twice the pixels and is seen at an angle, out of focus, with the corners darker,
-grain, and JPEG of quality 88. Traced are the ink (as it comes) and the colours (3 of a photograph,
-"auto" of a rendering). Parts are outlines of the ink that are no holes, of the colours areas of
-those of the print; the truth is counted in the same drawing eight times larger. Colour distance:
-mean absolute difference of the areas to the picture in an even light, of 255. Last what the program
-said. Pictures show the curves, fitted without a tolerance.
+grain, and JPEG of quality 88. Traced are the ink and the colours, as they come. Parts are outlines
+of the ink that are no holes, of the colours areas of those of the print; the truth is counted in
+the same drawing eight times larger. Colour distance: mean absolute difference of the areas to the
+picture in an even light, of 255. Last what the program said. Pictures show the curves, fitted
+without a tolerance.
 """
 
 from __future__ import annotations
@@ -160,12 +160,12 @@ def painted(shape: ss.Shape, outlines: Sequence[NDArray[np.float64]], zoom: int)
     return image
 
 
-def table_line(sign: Sign, colors: int | str, output: Path | None) -> tuple[str, bool]:
+def table_line(sign: Sign, output: Path | None) -> tuple[str, bool]:
     """What was found in one picture, and whether every letter is there."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", ss.PictureWarning)
         ink = ss.trace(sign.picture)
-        areas = ss.trace(sign.picture, colors=colors)
+        areas = ss.trace(sign.picture, colors="auto")
     holes = sum(ink.is_hole(k) for k in range(len(ink)))
     parts = (len(ink) - holes, holes)
     names = [color for color in areas.colors if color]
@@ -206,8 +206,8 @@ def main() -> None:
     print("|---|---|---|---|---|---|---|---|")
     right = [0, 0]
     for pair in signs():
-        for kind, (sign, colors) in enumerate(zip(pair, ("auto", 3), strict=True)):
-            line, good = table_line(sign, colors, chosen.output)
+        for kind, sign in enumerate(pair):
+            line, good = table_line(sign, chosen.output)
             right[kind] += good
             print(line, flush=True)
     print(f"\nEvery letter, dot and counter: {right[0]} of {len(SIGNS)} renderings,"

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -31,7 +32,9 @@ def ours(
     picture: Picture, tolerance: float | None, character: str, colors: int | None = None
 ) -> tuple[Found, float]:
     """Outlines of this package, of the drawing alone, and the seconds that fitting took."""
-    shape = ss.trace(picture, colors=colors)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ss.PictureWarning)  # of the light on photographs
+        shape = ss.trace(picture, colors=colors)
     begin = time.process_time()
     fits = ss.fit_shape(shape, tolerance=tolerance, character=character).fits
     seconds = time.process_time() - begin
