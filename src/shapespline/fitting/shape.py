@@ -251,7 +251,7 @@ def _with_shared(
     arcs = shared_arcs(shape.contours, snap)
     within = None if tolerance is None else tolerance - snap
     settings = replace(request.settings, tolerance=within, symmetric=False)
-    # Whose each border is: of the first contour that it bounds, which may share nothing.
+    # The first contour that each border bounds.
     users = {use.arc: k for k, uses in reversed([*enumerate(arcs.uses)]) for use in uses}
     alone = [k for k, uses in enumerate(arcs.uses) if not uses]
     rings = [arc for arc, closed in enumerate(arcs.closed) if closed]
@@ -263,9 +263,11 @@ def _with_shared(
         requests.append(Request.of(border, None, replace(settings, ends=ends)))
     fits = _one_by_one(requests, monitor, progress)
     n_whole = len(alone) + len(rings)
-    whole, found = _together(fits[:n_whole], requests[0], tolerance, monitor)
+    whole, found = _together(fits[:n_whole], requests[0], within, monitor)
     curves = dict(zip((*rings, *between), whole[len(alone) :] + fits[n_whole:], strict=True))
     own = dict(zip(alone, whole, strict=False))
+    if tolerance is not None:
+        own = {k: replace(fit, tolerance=tolerance) for k, fit in own.items()}
     of_contours = [
         _around(contour, [(curves[use.arc], use.backwards) for use in uses], tolerance)
         if uses

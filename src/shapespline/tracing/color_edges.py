@@ -12,7 +12,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from shapespline.tracing.borders import OUTSIDE
-from shapespline.tracing.edges import EVEN, EVEN_NOISE, FARTHEST, NOISIEST, REACH, places_across
+from shapespline.tracing.edges import (
+    EVEN,
+    EVEN_NOISE,
+    FARTHEST,
+    NOISIEST,
+    REACH,
+    half_way,
+    places_across,
+)
 from shapespline.tracing.pixels import LUMA
 from shapespline.tracing.softness import SHARP, Softness
 
@@ -29,6 +37,8 @@ if TYPE_CHECKING:
 STRONG = 0.6
 # A border's crossings are no nearer to a pixel's centre than this while its course is told.
 INNER = 0.02
+# Pixels on either side of a crossing in which its place is looked for.
+NEAR = 1
 # Borders that are looked at together.
 TOGETHER = 100_000
 
@@ -140,7 +150,9 @@ def node_places(seen: Seen, borders: Borders) -> NodePlaces:
         share = np.where(told, first / np.where(told, first - second, 1.0), 0.5)
         level[index] = drawn[index] = np.clip(share, INNER, 1 - INNER)
         if seen.soft.on_level:
-            drawn[index] = _half_way(across, share)
+            # Lightness may be half-way between the next two pixels.
+            places = half_way(across, NEAR) - REACH + 0.5
+            drawn[index] = np.where(np.isnan(places), share, places)
             continue
         noise = seen.noise_along(axis)
         even = EVEN + EVEN_NOISE * float(np.median(noise))
@@ -156,17 +168,6 @@ def node_places(seen: Seen, borders: Borders) -> NodePlaces:
         junctions = [_junction(own_places, four, rim, (width, height)) for four in borders.cells]
         found.append(np.concatenate([own_places, _pairs(junctions), _pairs(borders.corners)]))
     return NodePlaces(found[0], found[1], np.pad(known, (0, len(found[0]) - len(known))))
-
-
-def _half_way(across: FloatArray, share: FloatArray) -> FloatArray:
-    """Shares where lightness is half-way: of all colours, that may be between the next two."""
-    beside = np.arange(REACH - 2, REACH + 1)  # the two pixels before, those of the crossing, behind
-    first, second = across[:, beside] - 0.5, across[:, beside + 1] - 0.5
-    met = (first < 0) & (second >= 0)
-    places = beside - REACH + 1 + np.where(met, first / np.where(met, first - second, 1.0), np.inf)
-    off = np.abs(places - 0.5)
-    nearest = places[np.arange(len(places)), np.argmin(off, axis=1)]
-    return np.where(met.any(axis=1), nearest, share)
 
 
 def _inner(nodes: Nodes) -> Iterator[Nodes]:

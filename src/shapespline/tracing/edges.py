@@ -108,6 +108,19 @@ def places_across(profiles: FloatArray, even: float) -> FloatArray:
     return place
 
 
+def half_way(profiles: FloatArray, near: int) -> FloatArray:
+    """Where profiles pass a half nearest to their middle, in pixels from the ground's far end.
+
+    NaN where they do not within so many pixels before and behind their middle two.
+    """
+    before = np.arange(REACH - 1 - near, REACH + near)  # pixels on the ground's side of a place
+    first, second = profiles[:, before] - 0.5, profiles[:, before + 1] - 0.5
+    met = (first < 0) & (second >= 0)
+    places = before + 0.5 + np.where(met, first / np.where(met, first - second, 1.0), np.inf)
+    nearest = places[np.arange(len(places)), np.argmin(np.abs(places - REACH), axis=1)]
+    return np.where(met.any(axis=1), nearest, np.nan)
+
+
 def profiles_across(field: Field, found: Crossings) -> FloatArray:
     """Coverage across each crossing, from ground to ink, shape (n, 2 REACH)."""
     offsets = np.arange(1 - REACH, REACH + 1)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.tracing.edges import REACH, profiles_across
+from shapespline.tracing.edges import REACH, half_way, profiles_across
 from shapespline.tracing.level import picture_level
 from shapespline.tracing.softness import ENOUGH, Softness
 
@@ -36,8 +36,7 @@ NEAR = 3
 def inks_of(field: Field, part: Crossings, lengths: Sequence[int]) -> FloatArray:
     """Ink of outlines of so many crossings each, of that of the picture.
 
-    Of thin strokes it is the least ink of others, or of the picture, that is no less than their
-    middle.
+    Of thin strokes it is the least ink of others that is no less than their middle.
     """
     profiles = _into_ink(field, part)
     inner = profiles[:, -INNER:]
@@ -109,7 +108,7 @@ def cut_between_inks(field: Field, found: Crossings) -> Field | None:
     )
 
 
-def half_way(field: Field, part: Crossings, shares: FloatArray, inks: FloatArray) -> FloatArray:
+def moved_to_own(field: Field, part: Crossings, shares: FloatArray, inks: FloatArray) -> FloatArray:
     """Shares of crossings moved to where the values lie half-way to their own ink.
 
     Parameters
@@ -126,13 +125,7 @@ def half_way(field: Field, part: Crossings, shares: FloatArray, inks: FloatArray
     if len(which) == 0:
         return moved
     some = part.chosen(which)
-    profiles = profiles_across(field, some) - 0.5 * inks[which, None]
-    before = np.arange(REACH - 1 - NEAR, REACH + NEAR)  # pixels on the ground's side of a place
-    first, second = profiles[:, before], profiles[:, before + 1]
-    met = (first < 0) & (second >= 0)
-    places = before + 0.5 + np.where(met, first / np.where(met, first - second, 1.0), np.inf)
-    ahead = np.where(some.ink_first[:, None], REACH - places, places - REACH) + 0.5
-    off = np.abs(ahead - shares[which, None])
-    nearest = ahead[np.arange(len(which)), np.argmin(off, axis=1)]
-    moved[which] = np.where(met.any(axis=1), nearest, shares[which])
+    places = half_way(profiles_across(field, some) / inks[which, None], NEAR)
+    ahead = np.where(some.ink_first, REACH - places, places - REACH) + 0.5
+    moved[which] = np.where(np.isnan(ahead), shares[which], ahead)
     return moved

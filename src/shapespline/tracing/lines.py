@@ -9,7 +9,7 @@ import numpy as np
 from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
 from shapespline.tracing.edges import drawn_shares, level_shares, no_edges
-from shapespline.tracing.inks import half_way, inks_of
+from shapespline.tracing.inks import inks_of, moved_to_own
 from shapespline.tracing.softness import Softness
 
 if TYPE_CHECKING:
@@ -50,12 +50,13 @@ def drawn_lines(
     used = np.concatenate(loops)
     part = found.chosen(used)
     say(f"placing {len(used)} points of edges")
-    inks = inks_of(field, part, list(map(len, loops)))
-    ink_of_each = np.repeat(inks, list(map(len, loops)))
+    lengths = [len(loop) for loop in loops]
+    inks = inks_of(field, part, lengths)
+    ink_of_each = np.repeat(inks, lengths)
     soft = Softness.of(field, part, ink_of_each)
     shares = level_shares(field, part)
     if soft.on_level:
-        edges = no_edges(half_way(field, part, shares, ink_of_each))
+        edges = no_edges(moved_to_own(field, part, shares, ink_of_each))
     else:
         edges = drawn_shares(field, part, shares)
     places_drawn = part.places(height, edges.shares)

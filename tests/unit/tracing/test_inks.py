@@ -60,7 +60,7 @@ def test_one_level_for_both_is_off():
 
 def test_one_ink_is_left_as_it_is():
     from shapespline.tracing.crossings import crossings
-    from shapespline.tracing.inks import half_way, inks_of
+    from shapespline.tracing.inks import inks_of, moved_to_own
     from shapespline.tracing.layer import Layer
     from shapespline.tracing.seeing import cut_field
 
@@ -70,4 +70,4 @@ def test_one_ink_is_left_as_it_is():
     inks = inks_of(field, part, [len(loop) for loop in found.loops])
     assert (inks == 1.0).all()
     shares = np.full(len(part.row), 0.25)
-    assert (half_way(field, part, shares, np.ones(len(shares))) == 0.25).all()
+    assert (moved_to_own(field, part, shares, np.ones(len(shares))) == 0.25).all()
