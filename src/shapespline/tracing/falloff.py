@@ -47,7 +47,7 @@ def without_falloff(pixels: NDArray[Any]) -> NDArray[Any] | None:
     light = _falloff(pixels)
     if light is None:
         return None
-    even = np.empty_like(pixels)
+    even = np.empty(pixels.shape, pixels.dtype)
     whole = pixels.dtype.kind == "u"
     most = np.iinfo(pixels.dtype).max if whole else np.inf
     columns = np.arange(pixels.shape[1])[None, :]
