@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFilter
 from tests.support.places import DATA, ROOT
 
 if TYPE_CHECKING:
@@ -38,6 +38,10 @@ def laid_out(folder: Path) -> Path:
     ground.paste("#c81e1e", (60, 12, 84, 80))
     ground.paste("#e0a010", (12, 80, 84, 90))
     ground.save(folder / "colours.png")
+    y, x = np.mgrid[-1:1:192j, -1:1:192j]
+    seen = ground.resize((192, 192)).filter(ImageFilter.GaussianBlur(1.0))
+    lit = np.asarray(seen) * (1 - 0.1 * (x**2 + y**2))[..., None]
+    Image.fromarray(np.rint(lit).astype(np.uint8)).save(folder / "sign.jpg", quality=88)
     circuit = Image.new("L", (96, 96), 255)
     ImageDraw.Draw(circuit).line([(10, 48), (48, 48), (48, 12), (86, 12)], fill=0, width=4)
     circuit.save(folder / "circuit.png")
