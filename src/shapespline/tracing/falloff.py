@@ -30,10 +30,10 @@ EVEN, EVEN_USUAL, TINT, DARKEST = 0.06, 2.5, 0.08, 0.4
 # Blocks belong to the ground that are off it by no more than so many deviations, or this part.
 DEVIATIONS, LEAST_OFF, ROUNDS = 4.0, 0.01, 8
 # Light is told if its logarithm changes by more than this, and less than that; if blocks are off
-# it by no more than a part of that, and this much; if so many of the even ones show it, and so
-# many in each quarter (TRC-21).
+# it by no more than a part of that, and this much; if so many of the even ones show it, so many in
+# each quarter, and so many at the rim are ground (TRC-21).
 LEAST_CHANGE, MOST_CHANGE, OFF_PART, MOST_OFF = 0.03, 0.7, 0.05, 0.015
-MOST_EVEN, QUARTER = 0.5, 0.15
+MOST_EVEN, QUARTER, MOST_RIM = 0.3, 0.15, 0.5
 
 
 def without_falloff(pixels: NDArray[Any]) -> NDArray[Any] | None:
@@ -74,13 +74,15 @@ def _falloff(pixels: NDArray[Any]) -> SmoothGround | None:
     at_rim = rim.ravel()
     middle, spread = _blocks(pixels, grid, np.ones_like(rim))
     even = spread <= max(EVEN * full, EVEN_USUAL * float(np.median(spread)))
-    if even[at_rim].sum() < 0.5 * at_rim.sum():
+    if not even[at_rim].any():
         return None
     # Channels of each block, of the rim's.
     part = middle / np.maximum(np.median(middle[at_rim & even], axis=0), 1e-2 * full)
     mean = np.maximum(part.mean(axis=1), 1e-9)
     same = np.abs(part / mean[:, None] - 1.0).max(axis=1) < TINT
     ground = even & same & (mean > DARKEST) & (mean < 1 / DARKEST)
+    if ground[at_rim].sum() < MOST_RIM * at_rim.sum():
+        return None
     return _through(np.log(mean), ground, ground & at_rim, even, grid)
 
 
