@@ -249,7 +249,8 @@ def _with_shared(
     extent = max(contour.box_diagonal for contour in shape)
     snap = ROUNDING * extent if tolerance is None else SNAP_PART * tolerance
     arcs = shared_arcs(shape.contours, snap)
-    within = None if tolerance is None else tolerance - snap
+    # A contour is as far from its points as from those of its borders, and arcs from their twins.
+    within = None if tolerance is None else tolerance - 2 * snap
     settings = replace(request.settings, tolerance=within, symmetric=False)
     # The first contour that each border bounds.
     users = {use.arc: k for k, uses in reversed([*enumerate(arcs.uses)]) for use in uses}
@@ -268,34 +269,16 @@ def _with_shared(
     own = dict(zip(alone, whole, strict=False))
     if tolerance is not None:
         own = {k: replace(fit, tolerance=tolerance) for k, fit in own.items()}
-
-    def around(k: int) -> Fit:
-        uses = arcs.uses[k]
-        if not uses:
-            return own[k]
-        borders = [(curves[use.arc], use.backwards) for use in uses]
-        return _around(shape.contours[k], borders, tolerance)
-
-    of_contours = [around(k) for k in range(len(shape))]
-    # The bound of a whole contour counts the farthest of its arcs from their twins for all borders.
-    exceeded = {
-        use.arc for k, fit in enumerate(of_contours) if not fit.kept for use in arcs.uses[k]
-    }
-    twins = [arc for arc in between if arc in exceeded and _has_twins(curves[arc])]
-    for arc in twins:
-        asked = requests[len(alone) + len(rings) + between.index(arc)]
-        plain = replace(asked, style=replace(asked.style, character="fewest"))
-        curves[arc] = solve(plain, monitor())
-    if twins:
-        of_contours = [around(k) for k in range(len(shape))]
+    of_contours = [
+        _around(contour, [(curves[use.arc], use.backwards) for use in uses], tolerance)
+        if uses
+        else own[k]
+        for k, (contour, uses) in enumerate(zip(shape, arcs.uses, strict=True))
+    ]
     where = alone + [users[arc] for arc in rings]
     return of_contours, tuple(
         one._replace(pieces=tuple(where[k] for k in one.pieces)) for one in found
     )
-
-
-def _has_twins(fit: Fit) -> bool:
-    return any(piece.twin_error > 0 for piece in fit.sections)
 
 
 def _border(points: FloatArray, closed: bool, contour: Contour) -> Contour:

@@ -7,24 +7,14 @@ Whether a corner was drawn is told by the colours around it: those of the areas 
 
 from __future__ import annotations
 
-from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline.tracing.borders import OUTSIDE
-from shapespline.tracing.corners import (
-    AROUND,
-    TOGETHER,
-    UNCERTAIN,
-    UNCERTAIN_BLUR,
-    around,
-    put_back,
-    rounded_off,
-)
+from shapespline.tracing.corners import missing_around, put_back, rounded_off, uncertain_by
 from shapespline.tracing.coverage import border_coverage
-from shapespline.tracing.lines import DRAWN_ACCURACY, MOST
-from shapespline.tracing.sides import BLURRED
+from shapespline.tracing.lines import DRAWN_ACCURACY, MOST, Line
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -44,15 +34,7 @@ class Bordering(NamedTuple):
     places: NodePlaces
 
 
-class BorderLine(NamedTuple):
-    """A border as it was drawn, its level line, and how accurate it is."""
-
-    points: FloatArray
-    level_line: FloatArray
-    accuracy: float
-
-
-def drawn_borders(seen: Seen, found: Bordering) -> list[BorderLine]:
+def drawn_borders(seen: Seen, found: Bordering) -> list[Line]:
     """Points of each arc, of a closed one without its last node."""
     closed = [arc.is_ring for arc in found.arcs]
     lines, levels, certain, accuracies = [], [], [], []
@@ -65,18 +47,16 @@ def drawn_borders(seen: Seen, found: Bordering) -> list[BorderLine]:
         known = at_rim or bool(found.places.known[path].mean() > MOST)
         certain.append(not at_rim and (known or soft.shows_corners(_noise(seen, arc))))
         accuracies.append(DRAWN_ACCURACY if known else soft.accuracy)
-    reach = AROUND + round(soft.blur)
-    sure = UNCERTAIN + UNCERTAIN_BLUR * soft.blur
 
     def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
         first, second = _sides(corners, found)
         axis = seen.axis(first, second)
-        uncertain = sure + 3 * (2 * reach + 1) * seen.noise_along(axis)
-        missing = _missing(corners.points, tried, found, seen, first, axis, reach)
+        missing = _missing(corners.points, tried, found, seen, first, axis)
+        uncertain = uncertain_by(soft, seen.noise_along(axis))
         return np.asarray(np.abs(missing) <= uncertain + rounded_off(corners))
 
     points = put_back(lines, levels, certain, closed, fit, soft)
-    return [BorderLine(*line) for line in zip(points, levels, accuracies, strict=True)]
+    return [Line(*line) for line in zip(points, levels, accuracies, strict=True)]
 
 
 def _noise(seen: Seen, arc: Arc) -> float:
@@ -97,35 +77,27 @@ def _missing(
     seen: Seen,
     first: IntArray,
     axis: FloatArray,
-    reach: int,
 ) -> FloatArray:
     """Square pixels of the left colour that the picture has around corners and the areas do not."""
-    height, width = seen.size
-    colors, blur = seen.palette.colors, seen.soft.blur
-    margin = ceil(BLURRED * blur)
-    shown = (slice(None), *(slice(margin, margin + 2 * reach + 1),) * 2)
+    colors = seen.palette.colors
+    ground = colors[first]
     covered = {
         label: border_coverage(
             [ring.outline(lines, found.arcs) for ring in found.rings if ring.label == label],
-            height,
-            width,
+            *seen.size,
         )
         for label in sorted({ring.label for ring in found.rings})
     }
-    missing = []
-    for some in np.array_split(np.arange(len(at)), len(at) // TOGETHER + 1):
-        r, c, inside = around(at[some], seen.size, reach + margin)
-        r, c = np.clip(r, 0, height - 1), np.clip(c, 0, width - 1)
-        ground, own = colors[first[some]], axis[some]
+
+    def picture(some: IntArray, r: IntArray, c: IntArray) -> FloatArray:
+        values = seen.pixels[r, c] - ground[some, None, None]
+        return np.asarray((values * axis[some, None, None]).sum(axis=-1))
+
+    def drawing(some: IntArray, r: IntArray, c: IntArray) -> FloatArray:
         ours = np.zeros(r.shape)
         for label, cover in covered.items():
-            share = ((colors[label] - ground) * own).sum(axis=1)
-            ours += cover.at(r, c, width) * share[:, None, None]
-        if blur:
-            from scipy.ndimage import gaussian_filter  # which takes a while to load
+            share = ((colors[label] - ground[some]) * axis[some]).sum(axis=1)
+            ours += cover.at(r, c, seen.size[1]) * share[:, None, None]
+        return ours
 
-            ours = gaussian_filter(ours, blur, axes=(1, 2), radius=margin)
-        values = seen.pixels[r[shown], c[shown]] - ground[:, None, None]
-        off = (values * own[:, None, None]).sum(axis=-1) - ours[shown]
-        missing.append(np.where(inside[shown], off, 0.0).sum(axis=(1, 2)))
-    return np.concatenate(missing)
+    return missing_around(at, seen.size, seen.soft, picture, drawing)

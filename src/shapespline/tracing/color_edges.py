@@ -17,11 +17,12 @@ from shapespline.tracing.edges import (
     EVEN_NOISE,
     FARTHEST,
     NOISIEST,
+    OFFSETS,
     REACH,
     half_way,
     places_across,
 )
-from shapespline.tracing.pixels import LUMA
+from shapespline.tracing.pixels import LUMA, STRONG
 from shapespline.tracing.softness import SHARP, Softness
 
 if TYPE_CHECKING:
@@ -33,8 +34,6 @@ if TYPE_CHECKING:
     from shapespline.tracing.palette import Palette
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
-# Lightness tells two colours apart that differ in it by so much of what they differ by (TRC-21).
-STRONG = 0.6
 # A border's crossings are no nearer to a pixel's centre than this while its course is told.
 INNER = 0.02
 # Pixels on either side of a crossing in which its place is looked for.
@@ -116,9 +115,9 @@ def softened(seen: Seen, nodes: Nodes) -> Seen:
     """The same picture, how blurred it is told by its edges."""
     for _ in range(2):  # by all colours, then by their lightness
         profiles, beside, noise = [], [], []
-        for own in _inner(nodes):
+        for _index, own in _inner(nodes):
             axis = seen.axis(own.first, own.second)
-            profiles.append(seen.across(own, axis, np.arange(1 - REACH, REACH + 1)))
+            profiles.append(seen.across(own, axis, OFFSETS))
             before, behind = (seen.across(own, axis, np.zeros(1, int), k)[:, 0] for k in (-1, 1))
             beside.append(behind - before)
             noise.append(seen.noise_along(axis))
@@ -139,12 +138,9 @@ def node_places(seen: Seen, borders: Borders) -> NodePlaces:
     rim = (nodes.first == OUTSIDE) | (nodes.second == OUTSIDE)
     level, drawn = np.full(len(rim), 0.5), np.full(len(rim), 0.5)
     known = np.zeros(len(rim), dtype=bool)
-    begin, inner = 0, np.flatnonzero(~rim)
-    for own in _inner(nodes):
-        index = inner[begin : begin + len(own.row)]
-        begin += len(index)
+    for index, own in _inner(nodes):
         axis = seen.axis(own.first, own.second)
-        across = seen.across(own, axis, np.arange(1 - REACH, REACH + 1))
+        across = seen.across(own, axis, OFFSETS)
         first, second = across[:, REACH - 1] - 0.5, across[:, REACH] - 0.5
         told = (first < 0) & (second > 0)
         share = np.where(told, first / np.where(told, first - second, 1.0), 0.5)
@@ -170,11 +166,12 @@ def node_places(seen: Seen, borders: Borders) -> NodePlaces:
     return NodePlaces(found[0], found[1], np.pad(known, (0, len(found[0]) - len(known))))
 
 
-def _inner(nodes: Nodes) -> Iterator[Nodes]:
-    """Crossings between two colours, some at a time."""
+def _inner(nodes: Nodes) -> Iterator[tuple[IntArray, Nodes]]:
+    """Crossings between two colours, some at a time, and which they are."""
     inner = np.flatnonzero((nodes.first != OUTSIDE) & (nodes.second != OUTSIDE))
     for begin in range(0, len(inner), TOGETHER):
-        yield nodes.chosen(inner[begin : begin + TOGETHER])
+        index = inner[begin : begin + TOGETHER]
+        yield index, nodes.chosen(index)
 
 
 def _junction(

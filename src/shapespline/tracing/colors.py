@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from shapespline.monitor import Say
-    from shapespline.tracing.border_lines import BorderLine
     from shapespline.tracing.borders import Arc, Ring
+    from shapespline.tracing.lines import Line
     from shapespline.typing import ArrayLike, BoolArray, FloatArray, IntArray
 
 # Square pixels of the smallest area of a picture without noise, and with it: so many for each part
@@ -113,7 +113,7 @@ def _eight_bits(pixels: NDArray[Any]) -> NDArray[np.uint8]:
 
 
 def _shape(
-    rings: Sequence[Ring], arcs: Sequence[Arc], lines: Sequence[BorderLine], palette: Palette
+    rings: Sequence[Ring], arcs: Sequence[Arc], lines: Sequence[Line], palette: Palette
 ) -> Shape:
     """Areas by size, each with the holes in it after it."""
     height, width = palette.labels.shape

@@ -34,11 +34,15 @@ from shapespline.tracing.softness import SHARP
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from typing import TypeAlias
 
     from shapespline.tracing.field import Field
     from shapespline.tracing.sides import Corners
     from shapespline.tracing.softness import Softness
     from shapespline.typing import BoolArray, FloatArray, IntArray
+
+    # Values of pixels around some corners, at rows and columns.
+    Pixels: TypeAlias = Callable[[IntArray, IntArray, IntArray], FloatArray]
 
 # Angle between the sides, degrees, and the farthest that the level line of a drawing can be from
 # the corner, pixels: measured over all directions and places, area coverage.
@@ -82,12 +86,18 @@ def sharpened(
     inks : ndarray, shape (n,)
         What the ink of each is worth, of that of the picture.
     """
-    reach = AROUND + round(soft.blur)
-    uncertain = UNCERTAIN + UNCERTAIN_BLUR * soft.blur + 3 * field.noise * (2 * reach + 1)
 
     def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
-        missing = _missing(corners.points, tried, field, soft.blur, reach, inks[corners.own])
-        return np.abs(missing) <= uncertain + rounded_off(corners)
+        ink = inks[corners.own, None, None]
+        covered = border_coverage(tried, *field.shape)
+        missing = missing_around(
+            corners.points,
+            field.shape,
+            soft,
+            picture=lambda some, r, c: field.ink(r, c) / ink[some],
+            drawing=lambda _some, r, c: covered.at(r, c, field.shape[1]),
+        )
+        return np.abs(missing) <= rounded_off(corners) + uncertain_by(soft, field.noise)
 
     return put_back(outlines, level_lines, drawn, [True] * len(outlines), fit, soft)
 
@@ -221,7 +231,7 @@ def _with(points: FloatArray, corners: Corners, ring: bool) -> FloatArray:
 
 
 def around(
-    at: FloatArray, size: tuple[int, ...], reach: int = AROUND
+    at: FloatArray, size: tuple[int, ...], reach: int
 ) -> tuple[IntArray, IntArray, BoolArray]:
     """Rows and columns of pixels around places, square, and which are in the picture."""
     height, width = size
@@ -234,27 +244,45 @@ def around(
     return r, c, (r >= 0) & (r < height) & (c >= 0) & (c < width)
 
 
-def _missing(
+def missing_around(
     at: FloatArray,
-    outlines: Sequence[FloatArray],
-    field: Field,
-    blur: float,
-    reach: int,
-    inks: FloatArray,
+    size: tuple[int, int],
+    soft: Softness,
+    picture: Pixels,
+    drawing: Pixels,
 ) -> FloatArray:
-    """Ink around each corner that the picture has and blurred outlines do not, square pixels."""
-    height, width = field.shape
-    covered = border_coverage(outlines, height, width)
-    margin = ceil(BLURRED * blur)
+    """What the pixels around each corner have and those of a blurred drawing do not, added up.
+
+    Parameters
+    ----------
+    at : ndarray, shape (n, 2)
+    size : tuple of int
+        Height and width of the picture.
+    soft : Softness
+    picture, drawing : callable
+        Values of some pixels of each, given corners, rows and columns, shape (k, m, m).
+    """
+    reach, margin = reach_of(soft), ceil(BLURRED * soft.blur)
     shown = (slice(None), *(slice(margin, margin + 2 * reach + 1),) * 2)
     missing = []
     for some in np.array_split(np.arange(len(at)), len(at) // TOGETHER + 1):
-        r, c, inside = around(at[some], field.shape, reach + margin)
-        drawn = covered.at(np.clip(r, 0, height - 1), np.clip(c, 0, width - 1), width)
-        if blur:
+        r, c, inside = around(at[some], size, reach + margin)
+        r, c = np.clip(r, 0, size[0] - 1), np.clip(c, 0, size[1] - 1)
+        drawn = drawing(some, r, c)
+        if soft.blur:
             from scipy.ndimage import gaussian_filter  # which takes a while to load
 
-            drawn = gaussian_filter(drawn, blur, axes=(1, 2), radius=margin)
-        more = field.ink(r[shown], c[shown]) / inks[some, None, None] - drawn[shown]
+            drawn = gaussian_filter(drawn, soft.blur, axes=(1, 2), radius=margin)
+        more = picture(some, r[shown], c[shown]) - drawn[shown]
         missing.append(np.where(inside[shown], more, 0.0).sum(axis=(1, 2)))
     return np.concatenate(missing)
+
+
+def reach_of(soft: Softness) -> int:
+    """Pixels on either side of a corner whose ink is added up."""
+    return AROUND + round(soft.blur)
+
+
+def uncertain_by(soft: Softness, noise: FloatArray | float) -> FloatArray | float:
+    """Square pixels that are not told around a corner, in noise of the contrast."""
+    return UNCERTAIN + UNCERTAIN_BLUR * soft.blur + 3 * (2 * reach_of(soft) + 1) * noise

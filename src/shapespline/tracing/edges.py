@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 # Pixels on either side of a crossing that are looked at.
 REACH = 6
+OFFSETS = np.arange(1 - REACH, REACH + 1)
 # Two neighbours are even if they differ by no more than this part of the contrast, and by no more
 # than so many deviations of its noise.
 EVEN, EVEN_NOISE = 0.006, 4.0
@@ -123,9 +124,8 @@ def half_way(profiles: FloatArray, near: int) -> FloatArray:
 
 def profiles_across(field: Field, found: Crossings) -> FloatArray:
     """Coverage across each crossing, from ground to ink, shape (n, 2 REACH)."""
-    offsets = np.arange(1 - REACH, REACH + 1)
-    row = found.row[:, None] + np.where(found.upright[:, None], offsets, 0)
-    column = found.column[:, None] + np.where(found.upright[:, None], 0, offsets)
+    row = found.row[:, None] + np.where(found.upright[:, None], OFFSETS, 0)
+    column = found.column[:, None] + np.where(found.upright[:, None], 0, OFFSETS)
     profiles = field.coverage(row, column)
     profiles[found.ink_first] = profiles[found.ink_first, ::-1]
     return profiles

@@ -14,7 +14,7 @@ import numpy as np
 
 from shapespline.tracing.edges import REACH, half_way, profiles_across
 from shapespline.tracing.level import picture_level
-from shapespline.tracing.softness import ENOUGH, Softness
+from shapespline.tracing.softness import ENOUGH, EVEN, EVEN_NOISE, Softness
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from shapespline.tracing.field import Field
     from shapespline.typing import FloatArray
 
-# Of so many pixels into the ink the last three tell what it is worth where they are even, but for
-# so many deviations of the noise; so much of an outline has to show it. What differs from the ink
-# of the picture by more than this part is another (TRC-22).
-DEEP, INNER, EVEN, EVEN_NOISE, SHOWN, DIFFERENT = 7, 3, 0.02, 2.0, 0.2, 0.08
+# Of so many pixels into the ink the last three tell what it is worth where they are even; so much
+# of an outline has to show it. What differs from the ink of the picture by more than this part is
+# another (TRC-22).
+DEEP, INNER, SHOWN, DIFFERENT = 7, 3, 0.2, 0.08
 # Outlines of so many crossings tell inks; one that so small a part of them has is rare (TRC-22).
 LONG, RARE = 12, 0.02
 # Pixels on either side of a crossing in which its place is looked for.

@@ -101,8 +101,8 @@ class Layer:
         return np.linspace(*self.range, FLOAT_BINS + 1)
 
 
-def strips(shape: tuple[int, ...]) -> Iterator[slice]:
-    """Rows of a picture, so many at once that they are a strip.
+def strips(shape: tuple[int, ...], size: int | None = None) -> Iterator[slice]:
+    """Rows of a picture, so many at once that they are a strip, or have that many pixels.
 
     Examples
     --------
@@ -110,7 +110,7 @@ def strips(shape: tuple[int, ...]) -> Iterator[slice]:
     [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
     """
     height, width = shape[:2]
-    step = max(1, STRIP // width)
+    step = max(1, (STRIP if size is None else size) // width)
     for begin in range(0, height, step):
         yield slice(begin, min(begin + step, height))
 

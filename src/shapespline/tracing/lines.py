@@ -62,7 +62,9 @@ def drawn_lines(
     places_drawn = part.places(height, edges.shares)
     at_rim = part.at_rim(height, width)
     midway = np.abs(shares - 0.5) < 1e-9
-    outlines, level_lines, accuracies = [], [], []
+    # Edges that blur or noise alone leave on the level line have corners, too (TRC-20).
+    on_level_too = soft.shows_corners(field.noise)
+    outlines, level_lines, accuracies, cornered = [], [], [], []
     begin = 0
     for loop, ink in zip(loops, inks.tolist(), strict=True):
         own = slice(begin, begin + len(loop))
@@ -71,11 +73,11 @@ def drawn_lines(
         level_line = distinct(_with_rim_corners(places[loop], height, width))
         inner = ~at_rim[own]
         upright = part.upright[own]
-        accuracy = soft.accuracy
-        known, flat = edges.known[own][inner], midway[own][inner]
-        if not inner.any() or _is_known(known, across[inner]):  # else the rim alone
-            accuracy = DRAWN_ACCURACY
-        if _is_one_bit(flat, upright[inner]):
+        # Without an inner crossing it is the rim alone.
+        known = not inner.any() or _is_known(edges.known[own][inner], across[inner])
+        accuracy = DRAWN_ACCURACY if known else soft.accuracy
+        one_bit = _is_one_bit(midway[own][inner], upright[inner])
+        if one_bit:
             accuracy = ONE_BIT_ACCURACY
         points = places_drawn[own]
         if len(loop) >= FEW_POINTS and (
@@ -88,11 +90,9 @@ def drawn_lines(
         outlines.append(points if len(points) >= 3 else level_line)
         level_lines.append(level_line)
         accuracies.append(accuracy)
-    # Edges that blur or noise alone leave on the level line have corners, too (TRC-20).
-    worst = soft.accuracy if soft.shows_corners(field.noise) else DRAWN_ACCURACY
-    drawn = [accuracy in (DRAWN_ACCURACY, worst) for accuracy in accuracies]
+        cornered.append(not one_bit and (known or on_level_too))
     say(f"looking for the corners of {len(outlines)} outlines")
-    outlines = sharpened(outlines, level_lines, drawn, field, soft, inks)
+    outlines = sharpened(outlines, level_lines, cornered, field, soft, inks)
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
 
 

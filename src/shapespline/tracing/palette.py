@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.tracing.layer import strips
 from shapespline.tracing.threads import LACKS, is_thread
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def _even(pixels: NDArray[np.uint8]) -> BoolArray:
     from scipy import ndimage
 
     even = np.empty(pixels.shape[:2], dtype=bool)
-    for rows in _some_rows(even.shape):
+    for rows in strips(even.shape, TOGETHER):
         above = max(rows.start - 1, 0)
         seen = pixels[above : rows.stop + 1]
         spread = [
@@ -102,7 +103,7 @@ def _chosen(pixels: NDArray[np.uint8], told: BoolArray, colors: int | str) -> Fl
     wanted = MOST_COLORS if colors == "auto" else int(colors)
     step = int(told.sum()) // SAMPLE + 1
     samples, codes, numbers = [], [], []
-    for rows in _some_rows(told.shape):
+    for rows in strips(told.shape, TOGETHER):
         seen = pixels[rows][told[rows]]
         samples.append(seen[::step])
         code, times = np.unique(seen.astype(np.int64) @ (65536, 256, 1), return_counts=True)
@@ -180,7 +181,7 @@ def _even_labels(
     pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray
 ) -> NDArray[np.int8]:
     labels = np.zeros(even.shape, dtype=np.int8)
-    for rows in _some_rows(even.shape):
+    for rows in strips(even.shape, TOGETHER):
         own = even[rows]
         labels[rows][own] = _nearest(pixels[rows][own].astype(np.float64), colors)
     return labels
@@ -193,7 +194,7 @@ def _uneven(
 
     And which colours the even ones around each have, shape (n, count).
     """
-    for rows in _some_rows(even.shape):
+    for rows in strips(even.shape, TOGETHER):
         row, column = np.nonzero(~even[rows])
         if len(row) == 0:
             continue
@@ -209,13 +210,6 @@ def _uneven(
         near = bits[row + rows.start - above, column]
         known = (near[:, None] >> np.arange(count, dtype=np.uint64)) & np.uint64(1)
         yield (row + rows.start, column), known.astype(bool)
-
-
-def _some_rows(shape: tuple[int, ...]) -> Iterator[slice]:
-    """Rows of a picture, as many as are looked at together."""
-    step = max(1, TOGETHER // shape[1])
-    for begin in range(0, shape[0], step):
-        yield slice(begin, min(begin + step, shape[0]))
 
 
 def _clearly_different(
@@ -333,7 +327,7 @@ def merged(palette: Palette, least: float) -> tuple[Palette, int]:
             parts += own
             n_parts += n_own
         sizes = np.zeros(n_parts + 1, dtype=np.int64)
-        for rows in _some_rows(labels.shape):
+        for rows in strips(labels.shape, TOGETHER):
             sizes += np.bincount(parts[rows].ravel(), minlength=n_parts + 1)
         small = sizes < least
         small[0] = False
@@ -344,7 +338,7 @@ def merged(palette: Palette, least: float) -> tuple[Palette, int]:
         target = np.full(n_parts + 1, -1, dtype=np.int8)
         for part, label in touching:
             target[part] = label
-        for rows in _some_rows(labels.shape):
+        for rows in strips(labels.shape, TOGETHER):
             taken = target[parts[rows]]
             labels[rows] = np.where(taken >= 0, taken, labels[rows])
     return Palette(palette.colors, labels), count

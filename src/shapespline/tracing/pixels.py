@@ -25,6 +25,8 @@ CHANNELS = ("auto", "grey", "red", "green", "blue", "alpha", "difference")
 
 # Rec. ITU-R BT.601-7, section 2.5.1: the luma weights that Pillow and most viewers use.
 LUMA = (0.299, 0.587, 0.114)
+# Lightness tells colours apart that differ in it by so much of what they differ by (TRC-21).
+STRONG = 0.6
 # Width of the rim that shows the background, as a part of the shorter side: wider than the thin
 # frames that programs draw around pictures.
 RIM = 0.02

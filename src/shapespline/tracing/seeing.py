@@ -29,6 +29,7 @@ from shapespline.tracing.lighting import (
 )
 from shapespline.tracing.pixels import (
     CHANNELS,
+    STRONG,
     Channel,
     colour_distance,
     full_scale,
@@ -51,9 +52,9 @@ Polarity: TypeAlias = Literal["auto", "dark", "light"]
 Local: TypeAlias = float | Literal["auto", "off"]
 
 POLARITIES = ("auto", "dark", "light")
-# Lightness tells what a difference of colours does if its outlines are as many, their lengths
-# differ by no more than this part, and its contrast is so much of the other's (TRC-21).
-ALIKE, STRONG = 0.05, 0.6
+# Lightness tells what a difference of colours does if its outlines are as many, and their lengths
+# differ by no more than this part (TRC-21).
+ALIKE = 0.05
 
 
 @dataclass(frozen=True)

@@ -97,8 +97,8 @@ class Softness(NamedTuple):
 
     def shows_corners(self, noise: float) -> bool:
         """Whether corners of level lines are told from roundings, in noise of the contrast."""
-        noisy = NOISIEST < noise <= NOISIEST_CORNER
-        return self.scatter > 0 and (self.on_level or noisy)
+        left = self.on_level or noise > NOISIEST
+        return left and self.scatter > 0 and noise <= NOISIEST_CORNER
 
 
 # Edges as a renderer draws them.

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 from scipy.ndimage import gaussian_filter
 from tests.support.rendering import coverage, polygon
 
 from shapespline import InvalidInputError, PictureWarning
-from shapespline.tracing import trace
+from shapespline.tracing import layer, trace
 from shapespline.tracing.falloff import without_falloff
 
 SIZE = 200
@@ -54,7 +55,7 @@ def corners_missed(points):
 
 @pytest.mark.parametrize("name", LIGHTS)
 @pytest.mark.parametrize("kind", ["uint8", "uint16", "float", "grey"])
-def test_what_was_printed_comes_out(name, kind):
+def test_what_was_printed_comes_out(name, kind, monkeypatch):
     picture = seen(printed() * light(name)[..., None])
     if kind == "uint16":
         picture = picture.astype(np.uint16) * 257
@@ -72,6 +73,8 @@ def test_what_was_printed_comes_out(name, kind):
     assert abs(float(ratio.mean()) - 1) < 0.005
     assert float(ratio.std()) < 3 * 1.5 / 200
     assert float(even.max()) <= full
+    monkeypatch.setattr(layer, "STRIP", 900)  # a few rows
+    assert_array_equal(without_falloff(picture), even)
 
 
 @pytest.mark.parametrize(

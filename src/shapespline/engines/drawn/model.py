@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 ROUNDS, LEAST_STEP = 8, 1e-11
 # An equation follows from others if it leaves less than this part of its entries.
 IMPLIED = 1e-8
-# No step is longer than this part of the extent.
+# No step is longer than this part of the extent, or of the largest circle: the centre of a nearly
+# straight arc is far, and moves far (DRA-34).
 LONGEST_STEP = 0.3
 # Short pieces count points nearer to their nodes, by this part.
 SHORT, NEARER = 8.0, 0.5
@@ -198,7 +199,8 @@ class Model:
             matrix, gradient, _misfits = self.normal(self.x)
             self._meeting_steps().best(matrix, gradient, step)
             largest = float(np.abs(step).max())
-            self.x = self.x + step * min(1.0, LONGEST_STEP * self.extent / max(largest, 1e-300))
+            far = LONGEST_STEP * max(self.extent, float(np.abs(self.x).max()))
+            self.x = self.x + step * min(1.0, far / max(largest, 1e-300))
             if largest < LEAST_STEP * self.extent:
                 break
 
