@@ -66,6 +66,34 @@ TEST(a_circle_through_points_of_one_is_that_one) {
     CHECK(found.sum_sq < 1e-15);
 }
 
+TEST(a_circle_that_leaves_more_than_is_asked_for_is_none) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < 30; ++i) points.push_back({0.02 * i, 0.1 * std::sin(0.4 * i)});
+    const std::vector<double> weights(points.size(), 1.0);
+    const CentralMoments moments(PrefixMoments(points, weights).of(0, 29));
+    const double least = fit_circle(moments).sum_sq;
+    CHECK(fit_circle(moments, 1.01 * least).radius > 0.0);
+    const CircleFit given_up = fit_circle(moments, 0.5 * least);
+    CHECK(given_up.radius == 0.0);
+    CHECK(0.5 * least < given_up.sum_sq && given_up.sum_sq <= least);
+}
+
+TEST(what_a_quintic_in_arc_length_leaves_is_found_to_rounding) {
+    const auto at = [](double s, double wave) {
+        return Vec2{0.3 + s - 0.4 * s * s * s, s * s - 0.2 * std::pow(s, 5) + wave};
+    };
+    GrowingQuintic exact(at(0.0, 0.0), 0.0, 0.1), wavy(at(0.0, 0.0), 0.0, 0.1);
+    for (int i = 0; i < 60; ++i) {
+        const double s = i / 60.0;
+        exact.add(at(s, 0.0), s, 1.0);
+        wavy.add(at(s, i % 2 == 0 ? 1e-4 : -1e-4), s, 1.0);
+    }
+    CHECK(exact.solved(0.0, 1.0).sum_sq < 1e-13);
+    CHECK(std::abs(wavy.solved(0.0, 1.0).sum_sq / 60e-8 - 1.0) < 0.01);
+    const Vec2 end = exact.solved(0.0, 1.0).end;  // the slope at 1: (-0.2, 1)
+    CHECK_NEAR(end.x / end.y, -0.2, 1e-8);
+}
+
 TEST(a_line_an_arc_and_a_line_are_found_where_they_are) {
     std::vector<Vec2> points;
     for (int i = 0; i < 30; ++i) points.push_back({-0.6 + 0.02 * i, -0.3});

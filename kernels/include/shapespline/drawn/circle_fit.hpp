@@ -5,35 +5,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "shapespline/drawn/moments.hpp"
 
 namespace shapespline::drawn {
 
-// `sum_sq` is the weighted sum of squared distances.
-struct LineFit {
-    double sum_sq = 0.0;
-    Vec2 middle, direction;
-};
-
-// A radius of 0 says that there is no circle: the points lie on a line as far as numbers tell.
+// `sum_sq` is the weighted sum of squared distances. A radius of 0 says that there is no circle:
+// the points lie on a line as far as numbers tell, or the sum is larger than this one, which was
+// more than asked for.
 struct CircleFit {
     double sum_sq = 0.0;
     Vec2 centre;
     double radius = 0.0;
 };
 
-inline LineFit fit_line(const CentralMoments &m) {
-    const double half = 0.5 * (m.xx + m.yy), apart = 0.5 * (m.xx - m.yy);
-    const double root = std::sqrt(apart * apart + m.xy * m.xy);
-    // The eigenvector of the larger eigenvalue, from the row with the larger entries.
-    Vec2 along = apart >= 0.0 ? Vec2{apart + root, m.xy} : Vec2{m.xy, root - apart};
-    const double length = norm(along);
-    along = length > 0.0 ? (1.0 / length) * along : Vec2{1.0, 0.0};
-    return {m.weight * std::max(half - root, 0.0), m.middle, along};
+// Half the difference of the eigenvalues.
+inline double half_apart(const Scatter &m) {
+    const double apart = 0.5 * (m.xx - m.yy);
+    return std::sqrt(apart * apart + m.xy * m.xy);
 }
 
-inline CircleFit fit_circle(const CentralMoments &m) {
+// The weighted sum of squared distances from the best line.
+inline double off_line(const Scatter &m) {
+    return m.weight * std::max(0.5 * (m.xx + m.yy) - half_apart(m), 0.0);
+}
+
+// The direction of that line: of the larger eigenvalue, from the row with the larger entries.
+inline Vec2 along_line(const Scatter &m) {
+    const double apart = 0.5 * (m.xx - m.yy), root = half_apart(m);
+    const Vec2 along = apart >= 0.0 ? Vec2{apart + root, m.xy} : Vec2{m.xy, root - apart};
+    const double length = norm(along);
+    return length > 0.0 ? (1.0 / length) * along : Vec2{1.0, 0.0};
+}
+
+inline CircleFit fit_circle(const CentralMoments &m,
+                            double most = std::numeric_limits<double>::infinity()) {
     constexpr double kLargestRadius = 1e4;
     const double mz = m.xx + m.yy, det = m.xx * m.yy - m.xy * m.xy, var = m.zz - mz * mz;
     const double a3 = 4 * mz, a2 = -3 * mz * mz - m.zz;
@@ -49,6 +56,8 @@ inline CircleFit fit_circle(const CentralMoments &m) {
         if (std::abs(value) >= std::abs(f)) break;
         x = next;
         f = value;
+        // From zero the iteration rises to the root.
+        if (m.weight * x > most) return {m.weight * x, m.middle, 0.0};
     }
     const double d = x * x - x * mz + det;
     const Vec2 off{0.5 * (m.xz * (m.yy - x) - m.yz * m.xy) / d,

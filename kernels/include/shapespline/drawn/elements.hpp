@@ -97,7 +97,7 @@ inline std::pair<double, double> line_through(std::span<const Vec2> points,
         about.yy += weights[i] * y * y;
     }
     about.w = total;
-    Vec2 along = fit_line(CentralMoments(about)).direction;
+    Vec2 along = along_line(Scatter(about));
     if (dot(along, points.back() - points.front()) < 0.0) along = -1.0 * along;
     return {std::atan2(along.y, along.x), cross(along, middle)};
 }

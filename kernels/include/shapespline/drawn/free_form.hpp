@@ -3,11 +3,11 @@
 // shifted along the outline shifts its arc length alike and leaves nothing.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
-#include <vector>
 
+#include "shapespline/base/pair.hpp"
 #include "shapespline/base/vec2.hpp"
 
 namespace shapespline::drawn {
@@ -28,74 +28,62 @@ class GrowingQuintic {
 
     void add(Vec2 point, double station, double weight) {
         const Vec2 p = point - origin_;
-        const long double u = (station - station_) / unit_;
-        long double power = weight;
-        for (int k = 0; k < 2 * kTerms - 1; ++k, power *= u) {
-            powers_[k] += power;
-            if (k < kTerms) {
-                x_[k] += power * p.x;
-                y_[k] += power * p.y;
+        const Pair xy{p.x, p.y};
+        const double u = (station - station_) / unit_;
+        Pair power{weight, weight * u};  // two neighbouring ones
+        for (int k = 0; k < kTerms; ++k, power = u * u * power) {
+            powers_.pair(k) += power;
+            if (2 * k < kTerms) {
+                moments_[2 * k] += power[0] * xy;
+                moments_[2 * k + 1] += power[1] * xy;
             }
         }
-        const long double px = p.x, py = p.y;
-        squares_ += weight * (px * px + py * py);
-        last_ = static_cast<double>(u);
+        squares_ += weight * norm_sq(p);
+        last_ = u;
     }
 
     // Least squares over what was added, tangents at two arc lengths.
     FreeForm solved(double begin, double end) const {
         // Powers of u / last, which run to one.
-        std::array<long double, 2 * kTerms - 1> scale{};
-        scale[0] = 1.0L;
+        std::array<double, 2 * kTerms - 1> scale{};
+        scale[0] = 1.0;
         for (std::size_t k = 1; k < scale.size(); ++k) scale[k] = scale[k - 1] / last_;
-        std::array<std::array<long double, kTerms>, kTerms> l{};
-        std::array<long double, kTerms> x{}, y{};
-        long double left = squares_;
+        std::array<std::array<double, kTerms>, kTerms> l{};
+        std::array<Pair, kTerms> c{};
+        double left = squares_;
         for (int i = 0; i < kTerms; ++i) {
             for (int j = 0; j <= i; ++j) {
-                long double sum = powers_[i + j] * scale[i + j];
+                double sum = powers_[i + j] * scale[i + j];
                 for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
-                if (i == j)
-                    l[i][i] = std::sqrt(std::max(sum, 1e-30L * powers_[0]));
-                else
-                    l[i][j] = sum / l[j][j];
+                // The diagonal is inverted.
+                l[i][j] = i == j ? 1.0 / std::sqrt(std::max(sum, 1e-30 * powers_[0]))
+                                 : sum * l[j][j];
             }
-            x[i] = x_[i] * scale[i];
-            y[i] = y_[i] * scale[i];
-            for (int k = 0; k < i; ++k) {
-                x[i] -= l[i][k] * x[k];
-                y[i] -= l[i][k] * y[k];
-            }
-            x[i] /= l[i][i];
-            y[i] /= l[i][i];
-            left -= x[i] * x[i] + y[i] * y[i];
+            c[i] = scale[i] * moments_[i];
+            for (int k = 0; k < i; ++k) c[i] = c[i] - l[i][k] * c[k];
+            c[i] = l[i][i] * c[i];
+            left -= sum(c[i] * c[i]);
         }
         for (int i = kTerms - 1; i >= 0; --i) {
-            for (int k = i + 1; k < kTerms; ++k) {
-                x[i] -= l[k][i] * x[k];
-                y[i] -= l[k][i] * y[k];
-            }
-            x[i] /= l[i][i];
-            y[i] /= l[i][i];
+            for (int k = i + 1; k < kTerms; ++k) c[i] = c[i] - l[k][i] * c[k];
+            c[i] = l[i][i] * c[i];
         }
         const auto slope = [&](double station) {
             const double u = (station - station_) / unit_ / last_;
-            long double dx = 0.0L, dy = 0.0L, power = 1.0L;
-            for (int k = 1; k < kTerms; ++k, power *= u) {
-                dx += k * power * x[k];
-                dy += k * power * y[k];
-            }
-            return Vec2{static_cast<double>(dx), static_cast<double>(dy)};
+            Pair found{0.0, 0.0};
+            double power = 1.0;
+            for (int k = 1; k < kTerms; ++k, power *= u) found += k * power * c[k];
+            return Vec2{found[0], found[1]};
         };
-        return {static_cast<double>(std::max(left, 0.0L)), slope(begin), slope(end)};
+        return {std::max(left, 0.0), slope(begin), slope(end)};
     }
 
   private:
     Vec2 origin_;
     double station_, unit_, last_ = 1.0;
-    std::array<long double, 2 * kTerms - 1> powers_{};
-    std::array<long double, kTerms> x_{}, y_{};
-    long double squares_ = 0.0L;
+    PairArray<2 * kTerms> powers_{};        // of u, times weights
+    std::array<Pair, kTerms> moments_{};    // those of x and y
+    double squares_ = 0.0;
 };
 
 }  // namespace shapespline::drawn

@@ -51,19 +51,28 @@ class PrefixMoments {
     std::vector<Moments> sums_;
 };
 
-// Means about the middle of a stretch.
-struct CentralMoments {
+// Means of squares about the middle of a stretch.
+struct Scatter {
     double weight = 0.0;
     Vec2 middle;
     double xx = 0.0, xy = 0.0, yy = 0.0;
+
+    explicit Scatter(const Moments &m) : weight(m.w), middle{m.x / m.w, m.y / m.w} {
+        const auto [cx, cy] = middle;
+        xx = m.xx / weight - cx * cx;
+        xy = m.xy / weight - cx * cy;
+        yy = m.yy / weight - cy * cy;
+    }
+};
+
+// Those of higher powers, too.
+struct CentralMoments : Scatter {
     double xz = 0.0, yz = 0.0, zz = 0.0;
 
-    explicit CentralMoments(const Moments &m) : weight(m.w), middle{m.x / m.w, m.y / m.w} {
+    explicit CentralMoments(const Moments &m) : CentralMoments(Scatter(m), m) {}
+    CentralMoments(const Scatter &scatter, const Moments &m) : Scatter(scatter) {
         const auto [cx, cy] = middle;
         const double n = m.w, c = cx * cx + cy * cy, sz = m.xx + m.yy;
-        xx = m.xx / n - cx * cx;
-        xy = m.xy / n - cx * cy;
-        yy = m.yy / n - cy * cy;
         // With z' = z - 2 (cx x + cy y) + c, x' = x - cx, y' = y - cy.
         const double szp = sz - n * c;  // the sum of z'
         const double sxz = m.xz - 2 * (cx * m.xx + cy * m.xy) + c * m.x;

@@ -14,37 +14,9 @@
 #include "shapespline/drawn/circle_fit.hpp"
 #include "shapespline/drawn/free_form.hpp"
 #include "shapespline/drawn/moments.hpp"
+#include "shapespline/drawn/settings.hpp"
 
 namespace shapespline::drawn {
-
-enum Kind : int { kLine, kArc, kFree, kKinds };
-
-// What is drawn seldom costs more: prices of joints in those of a parameter.
-struct JointPrices {
-    double line_line_smooth, line_arc_smooth, arc_arc_smooth, arc_arc_corner;
-    double line_free_smooth, arc_free_smooth, free_corner, arc_free_corner;
-
-    double of(int a, int b, bool smooth) const {
-        if (a > b) std::swap(a, b);
-        if (b == kLine) return smooth ? line_line_smooth : 0.0;
-        if (b == kArc && a == kLine) return smooth ? line_arc_smooth : 0.0;
-        if (b == kArc) return smooth ? arc_arc_smooth : arc_arc_corner;
-        if (a == kFree) return smooth ? 0.0 : free_corner;
-        if (a == kLine) return smooth ? line_free_smooth : free_corner;
-        return smooth ? arc_free_smooth : arc_free_corner;
-    }
-};
-
-struct SegmentationSettings {
-    double deviation;   // of a point across the outline
-    double skip;        // points this near to a node do not count
-    double shortest;    // length of a piece
-    double price;       // nats per parameter
-    double free_parameters;  // of a free-form curve
-    double smooth_turn; // tangent of the largest turn of a smooth joint
-    std::int64_t stride;// points between candidates for the nodes of free-form runs
-    JointPrices joints;
-};
 
 struct DrawnPiece {
     std::int64_t begin, end;
@@ -61,7 +33,8 @@ class Segmentation {
                  const SegmentationSettings &settings)
         : points_(points), s_(stations), weights_(weights), settings_(settings),
           moments_(points, weights), n_(points.size()), states_(n_) {
-        precision_ = 1.0 / (settings.deviation * settings.deviation);
+        half_precision_ = 0.5 / (settings.deviation * settings.deviation);
+        dearest_joint_ = settings.price * settings.joints.dearest();
         // A stretch whose misfit is beyond noise by so much is given up.
         limit_ = 80.0 + 0.6 * std::min(moments_.weight(0, n_ - 1), 400.0);
         near_[0] = beside(settings.skip);
@@ -72,11 +45,18 @@ class Segmentation {
 
     std::vector<DrawnPiece> run() {
         for (State &state : states_[0]) state.cost = 0.0;
-        for (std::size_t i = 0; i + 1 < n_; ++i) {
-            least_ = states_[i][best_at(i)].cost;
-            if (least_ == kNever) continue;
-            extend_primitives(i);
-            if (is_candidate_[i]) extend_free(i);
+        begin_at(0);
+        std::size_t last = 0, last_free = 0;
+        for (std::size_t j = 1; j < n_; ++j) {
+            if (!may_be_node_[j]) continue;
+            reach_ = kNever;
+            extend_primitives(j, last);
+            last = j;
+            if (is_candidate_[j]) {
+                extend_free(j, last_free);
+                last_free = j;
+            }
+            if (j + 1 < n_ && states_[j][best_at(j)].cost < kNever) begin_at(j);
         }
         return traced_back();
     }
@@ -86,6 +66,8 @@ class Segmentation {
   private:
     static constexpr double kNever = std::numeric_limits<double>::infinity();
     static constexpr std::size_t kFewest = 5;  // points of an arc
+    static constexpr int kHopeless = 3;        // free-form runs too far off end the search
+    static constexpr double kLong = 8.0;       // a piece is short below so many lengths to skip
 
     struct State {
         double cost = kNever;
@@ -99,6 +81,27 @@ class Segmentation {
     };
     struct Stretch {
         std::size_t first, last;
+    };
+    // What a line and an arc leave of misfit at least, and the better one beyond noise.
+    struct Left {
+        double line, arc, beyond;
+    };
+    // A node where lines and arcs begin, what it costs at least to come there, and what they leave
+    // at least up to the nodes that were looked at.
+    struct Primitives {
+        std::size_t i;
+        double least, line = 0.0, arc = 0.0;
+        bool is_open = true;
+    };
+    // A node where free-form runs begin, their first point that counts, what they cost `more`, the
+    // next point to add, and what they leave.
+    struct FreeForms {
+        std::size_t i, first;
+        double least, more;
+        GrowingQuintic quintic;
+        std::size_t added;
+        double left = 0.0;
+        int hopeless = 0;
     };
 
     Beside beside(double distance) const {
@@ -121,13 +124,11 @@ class Segmentation {
         for (std::size_t i = 0; i < n_; i += settings_.stride) is_candidate_[i] = 1;
         for (const std::int64_t i : more) is_candidate_[i] = 1;
         is_candidate_[0] = is_candidate_[n_ - 1] = 1;
-        for (std::size_t i = 0; i < n_; ++i)
-            if (is_candidate_[i] && may_be_node_[i]) candidates_.push_back(i);
     }
 
     // The points that count of a piece between two nodes: of short ones more.
     Stretch counted(std::size_t i, std::size_t j) const {
-        const Beside &near = near_[s_[j] - s_[i] < 8.0 * settings_.skip];
+        const Beside &near = near_[s_[j] - s_[i] < kLong * settings_.skip];
         Stretch found{near.after[i], near.before[j]};
         if (found.last < found.first + 2) found = {std::min(i + 1, j), j > 0 ? j - 1 : 0};
         if (found.last < found.first + 2) found = {i, j};
@@ -139,17 +140,56 @@ class Segmentation {
         return 0.5 * (moments_.weight(i, j) - weight);
     }
 
-    void extend_primitives(std::size_t i) {
-        for (std::size_t j = i + 1; j < n_; ++j) {
-            const double length = s_[j] - s_[i];
-            if (!may_be_node_[j] || length < settings_.shortest) continue;
-            const Stretch all = counted(i, j);
-            double left = extend_primitive(i, j, all, 0.0);
-            if (left > settings_.price && between_points(i, j))
-                left = std::min(left, extend_primitive(i, j, {all.first + 1, all.last},
-                                                       settings_.price));
-            if (left > limit_ && length > 3.0 * settings_.shortest) break;
+    // Pieces begin in a node once all that end there were looked at.
+    void begin_at(std::size_t i) {
+        const double least = states_[i][best_at(i)].cost;
+        primitives_.push_back({i, least});
+        if (!is_candidate_[i]) return;
+        const double unit = std::max(s_[n_ - 1] - s_[i], 1e-300) / 8.0;
+        const auto begin = [&](std::size_t first, double more) {
+            const GrowingQuintic quintic(points_[first], s_[first], unit);
+            free_.push_back({i, first, least, more, quintic, first});
+        };
+        const std::size_t first = near_[0].after[i];
+        begin(first, 0.0);
+        if (between_points(i, n_ - 1)) begin(first + 1, settings_.price);
+    }
+
+    // Lines and arcs from all nodes to one, first from where the cheapest ones to the last node
+    // began: dearer ones need not be looked at then.
+    void extend_primitives(std::size_t j, std::size_t last) {
+        std::erase_if(primitives_, [](const Primitives &from) { return !from.is_open; });
+        for (const Kind kind : {kLine, kArc}) {
+            const std::size_t i = states_[last][kind].from;
+            const auto at = std::ranges::lower_bound(primitives_, i, {}, &Primitives::i);
+            if (at != primitives_.end() && at->i == i) extend_primitives(*at, j);
         }
+        for (Primitives &from : primitives_) extend_primitives(from, j);
+    }
+
+    void extend_primitives(Primitives &from, std::size_t j) {
+        const std::size_t i = from.i;
+        const double price = settings_.price, length = s_[j] - s_[i];
+        if (length < settings_.shortest) return;
+        const bool is_long = length >= kLong * settings_.skip;
+        const bool may_be_last = length > 3.0 * settings_.shortest;
+        const bool may_gain = from.least + from.line + 2.0 * price <= most_at(j, kLine) ||
+                              from.least + from.arc + 3.0 * price <= most_at(j, kArc);
+        if (!may_gain && (is_long || !may_be_last)) return;
+        const Stretch all = counted(i, j);
+        Left left = extend_primitive(from, j, all, 0.0);
+        if (left.beyond > price && between_points(i, j)) {
+            const Stretch fewer{all.first + 1, all.last};
+            const Left other = extend_primitive(from, j, fewer, price);
+            left = {std::min(left.line, other.line + price), std::min(left.arc, other.arc + price),
+                    std::min(left.beyond, other.beyond)};
+        } else if (corner_behind_[i]) {
+            left.line = left.arc = 0.0;
+        }
+        from.is_open = !(left.beyond > limit_ && may_be_last);
+        if (!is_long) return;  // of a short piece other points count than of a long one
+        from.line = std::max(from.line, left.line);
+        from.arc = std::max(from.arc, left.arc);
     }
 
     // A corner may lie between two points, if no picture blunted it: the first of a piece is then
@@ -175,90 +215,101 @@ class Segmentation {
                                 s_[i + 1] - s_[i] < settings_.shortest;
     }
 
-    // A line and an arc through the points that count; what is left of the better one's misfit
-    // beyond noise.
-    double extend_primitive(std::size_t i, std::size_t j, Stretch counted, double more) {
+    // A line and an arc through the points that count.
+    Left extend_primitive(const Primitives &from, std::size_t j, Stretch counted, double more) {
+        const std::size_t i = from.i;
         const double price = settings_.price;
         const auto [first, last] = counted;
-        const CentralMoments central(moments_.of(first, last));
-        const LineFit line = fit_line(central);
-        const double rest = uncounted(i, j, central.weight) + more;
-        const double of_line = 0.5 * precision_ * line.sum_sq;
-        if (may_gain(j, kLine, of_line + rest + 2.0 * price)) {
-            Vec2 along = line.direction;
+        const Moments moments = moments_.of(first, last);
+        const Scatter scatter(moments);
+        const double noise = 0.5 * scatter.weight;
+        const double rest = uncounted(i, j, scatter.weight) + more;
+        const double of_line = half_precision_ * off_line(scatter);
+        if (from.least + of_line + rest + 2.0 * price <= most_at(j, kLine)) {
+            Vec2 along = along_line(scatter);
             if (dot(along, points_[j] - points_[i]) < 0.0) along = -1.0 * along;
             offer(i, j, kLine, of_line + rest + 2.0 * price, along, along);
         }
-        double least = of_line;
-        if (of_line > price && last - first + 1 >= kFewest) {
-            const CircleFit circle = fit_circle(central);
-            const double of_arc = 0.5 * precision_ * circle.sum_sq;
-            if (circle.radius > 0.0 && of_arc + price < of_line) {
-                least = of_arc;
-                const Vec2 inner = points_[(first + last) / 2];
-                const double way =
-                    cross(inner - points_[first], points_[last] - inner) > 0.0 ? 1.0 : -1.0;
-                const auto tangent = [&](Vec2 p) {
-                    const Vec2 out = p - circle.centre;
-                    return Vec2{-way * out.y, way * out.x};
-                };
-                offer(i, j, kArc, of_arc + rest + 3.0 * price, tangent(points_[i]),
-                      tangent(points_[j]));
-            }
+        Left left{of_line, std::max(from.arc - more, 0.0), of_line - noise};
+        if (of_line <= price || last - first + 1 < kFewest) return left;
+        // What an arc that is looked at leaves at most: it is the cheapest, or tells whether longer
+        // ones, or those without the first point, are looked at.
+        double most = most_at(j, kArc) - from.least - rest - 3.0 * price;
+        if (left.beyond > limit_ && s_[j] - s_[i] < kLong * settings_.skip)
+            most = std::max(most, limit_ + noise);
+        if (left.beyond > price && between_points(i, j)) most = std::max(most, price + noise);
+        const auto dearer = [&](double of_arc) {
+            left.arc = std::max(left.arc, of_arc);
+            left.beyond = std::min(of_line, left.arc) - noise;
+            return left;
+        };
+        if (left.arc > most) return dearer(0.0);
+        const CircleFit circle =
+            fit_circle(CentralMoments(scatter, moments), most / half_precision_);
+        const double of_arc = half_precision_ * circle.sum_sq;
+        if (circle.radius == 0.0) return of_arc > 0.0 ? dearer(of_arc) : left;
+        left.arc = std::max(left.arc, of_arc);
+        if (of_arc + price >= of_line) return left;
+        left.beyond = of_arc - noise;
+        const Vec2 inner = points_[(first + last) / 2];
+        const double way = cross(inner - points_[first], points_[last] - inner) > 0.0 ? 1.0 : -1.0;
+        const auto tangent = [&](Vec2 p) {
+            const Vec2 out = p - circle.centre;
+            return Vec2{-way * out.y, way * out.x};
+        };
+        offer(i, j, kArc, of_arc + rest + 3.0 * price, tangent(points_[i]), tangent(points_[j]));
+        return left;
+    }
+
+    void extend_free(std::size_t j, std::size_t last) {
+        std::erase_if(free_, [](const FreeForms &from) { return from.hopeless >= kHopeless; });
+        const std::size_t i = states_[last][kFree].from;
+        for (FreeForms &from : free_)
+            if (from.i == i) extend_free(from, j);
+        for (FreeForms &from : free_)
+            if (from.i != i) extend_free(from, j);
+    }
+
+    void extend_free(FreeForms &from, std::size_t j) {
+        const std::size_t i = from.i, first = from.first, last = near_[0].before[j];
+        if (last < first + GrowingQuintic::kTerms + 1) return;
+        const double weight = moments_.weight(first, last);
+        const double rest = uncounted(i, j, weight) + from.more +
+                            settings_.free_parameters * settings_.price;
+        // Misfit grows with the points.
+        if (from.least + from.left + rest <= most_at(j, kFree)) {
+            for (; from.added <= last; ++from.added)
+                from.quintic.add(points_[from.added], s_[from.added], weights_[from.added]);
+            const FreeForm found = from.quintic.solved(s_[i], s_[j]);
+            from.left = half_precision_ * found.sum_sq;
+            offer(i, j, kFree, from.left + rest, found.begin, found.end);
         }
-        return least - 0.5 * central.weight;
+        from.hopeless = from.left - 0.5 * weight > limit_ ? from.hopeless + 1 : 0;
     }
 
-    void extend_free(std::size_t i) {
-        const std::size_t first = near_[0].after[i];
-        extend_free(i, first, 0.0);
-        if (between_points(i, n_ - 1)) extend_free(i, first + 1, settings_.price);
+    // What a way to the end of a piece costs at most: as much as one of its kind that is known, and
+    // as the cheapest one if the joint behind that is the dearest.
+    double most_at(std::size_t j, Kind kind) const {
+        return std::min(states_[j][kind].cost, reach_);
     }
 
-    void extend_free(std::size_t i, std::size_t first, double more) {
-        const double unit = std::max(s_[n_ - 1] - s_[i], 1e-300) / 8.0;
-        GrowingQuintic quintic(points_[first], s_[first], unit);
-        std::size_t added = first;  // the next point to add
-        double misfit = 0.0;
-        int hopeless = 0;
-        auto at = std::upper_bound(candidates_.begin(), candidates_.end(), i);
-        for (; at != candidates_.end() && hopeless < 3; ++at) {
-            const std::size_t j = *at, last = near_[0].before[j];
-            if (last < first + GrowingQuintic::kTerms + 1) continue;
-            for (; added <= last; ++added)
-                quintic.add(points_[added], s_[added], weights_[added]);
-            const double weight = moments_.weight(first, last);
-            const double rest = uncounted(i, j, weight) + more +
-                                settings_.free_parameters * settings_.price;
-            // Misfit grows with the points.
-            if (may_gain(j, kFree, misfit + rest)) {
-                const FreeForm found = quintic.solved(s_[i], s_[j]);
-                misfit = 0.5 * precision_ * found.sum_sq;
-                offer(i, j, kFree, misfit + rest, found.begin, found.end);
-            }
-            hopeless = misfit - 0.5 * weight > limit_ ? hopeless + 1 : 0;
-        }
-    }
-
-    // Whether a piece from the node where the search stands may be the cheapest of its kind.
-    bool may_gain(std::size_t j, Kind kind, double own) const {
-        return least_ + own < states_[j][kind].cost;
-    }
-
-    // A piece behind each of the states of its first node.
+    // A piece behind each of the states of its first node; of equal ones the longest is taken.
     void offer(std::size_t i, std::size_t j, Kind kind, double own, Vec2 begin, Vec2 end) {
         State &to = states_[j][kind];
         for (int before = 0; before < (i == 0 ? 1 : static_cast<int>(kKinds)); ++before) {
             const State &state = states_[i][before];
             double cost = state.cost + own;
-            if (!(cost < to.cost)) continue;
+            if (cost > to.cost) continue;
             if (i > 0) {
                 const double along = dot(state.direction, begin);
                 const bool smooth = std::abs(cross(state.direction, begin)) <
                                     settings_.smooth_turn * along;
                 cost += settings_.price * settings_.joints.of(before, kind, smooth);
             }
-            if (cost < to.cost) to = {cost, i, before, end};
+            if (cost < to.cost || (cost == to.cost && i < to.from)) {
+                to = {cost, i, before, end};
+                reach_ = std::min(reach_, cost + dearest_joint_);
+            }
         }
     }
 
@@ -292,10 +343,12 @@ class Segmentation {
     PrefixMoments moments_;
     std::size_t n_;
     std::vector<std::array<State, kKinds>> states_;
-    double precision_ = 0.0, limit_ = 0.0, least_ = 0.0;
+    double half_precision_ = 0.0, limit_ = 0.0, dearest_joint_ = 0.0;
+    double reach_ = kNever;  // no dearer way to the node that is looked at is of use
     std::array<Beside, 2> near_;
     std::vector<char> is_candidate_, may_be_node_, corner_behind_;
-    std::vector<std::size_t> candidates_;
+    std::vector<Primitives> primitives_;
+    std::vector<FreeForms> free_;
 };
 
 }  // namespace shapespline::drawn
