@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from shapespline.fitting.strategies import ONE_SPLINE, PIECES, SMOOTHED
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.fitting.problem import Problem
     from shapespline.fitting.verify import Verified
 
@@ -48,7 +50,7 @@ class Shortlist:
     @property
     def best(self) -> Verified:
         """The one that is preferred to all others."""
-        return min(self._verified, key=self._preference)
+        return self._preferred(self._verified)
 
     @property
     def kept(self) -> bool:
@@ -64,12 +66,16 @@ class Shortlist:
     def among(self, *ranks: int) -> Verified | None:
         """The best of some ranks, None if there is none of them."""
         those = [one for one in self._verified if one.candidate.rank in ranks]
-        return min(those, key=self._preference) if those else None
+        return self._preferred(those) if those else None
 
     def follows(self, verified: Verified) -> bool:
         """Whether a curve keeps the tolerance with few points for those of the data."""
         most = ROUGH_PART * len(self._problem.contour)
         return verified.kept and verified.fit.n_stored_points <= most
+
+    def _preferred(self, those: Sequence[Verified]) -> Verified:
+        """The best of some; one alone is not compared, which would look for corners."""
+        return those[0] if len(those) == 1 else min(those, key=self._preference)
 
     def _preference(self, verified: Verified) -> tuple[bool, bool, bool, bool, bool, float, int]:
         problem, candidate = self._problem, verified.candidate

@@ -172,7 +172,9 @@ def length_along(model: Model, k: int) -> float:
     if kind == LINE:
         return float(unit_of(float(model.x[o])) @ (model.row.points[j] - model.row.points[i]))
     out = model.row.points[i : j + 1] - model.x[o : o + 2]
-    turns = np.unwrap(np.arctan2(out[:, 1], out[:, 0]))
+    turns = np.arctan2(out[:, 1], out[:, 0])
+    if np.abs(np.diff(turns)).max() >= np.pi:
+        turns = np.unwrap(turns)
     return abs(float(turns[-1] - turns[0])) * float(model.x[o + 2])
 
 

@@ -140,8 +140,9 @@ def _of_row(
         return None
     if seen.closed and len(row.found) == 1:  # an arc that is no circle
         return None
-    row = at_corners(Model.of(seen, row, None, ends))
     model, n_few = Model.of(seen, row, None, ends), 0
+    if (row := at_corners(model)) is not model.row:
+        model = Model.of(seen, row, model, ends)
     while (fewer := without_few(model)) is not None and n_few < MOST_WRONG:
         model, n_few = Model.of(seen, fewer, model, ends), n_few + 1
     best = _estimated(model, model.row, tolerance)

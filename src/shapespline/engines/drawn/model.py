@@ -68,7 +68,11 @@ class Model:
     alone: dict[Key, tuple[float, ...]] = field(default_factory=dict)
     beside: set[Key] = field(default_factory=set)
     ends: FloatArray | None = None
+    # What was found at a vector of unknowns, which is never changed in place.
+    _listed: tuple[FloatArray, list[float]] | None = None
+    _known_misfits: tuple[FloatArray, dict[int, Misfit]] | None = None
     _known_equations: Equations | None = None
+    _known_steps: tuple[FloatArray, Equations, _kernels.MeetingSteps] | None = None
 
     @classmethod
     def of(
@@ -108,6 +112,13 @@ class Model:
     def kind(self, k: int) -> int:
         """What segment k is."""
         return self.row.found[k].kind
+
+    def unknowns(self, k: int) -> list[float]:
+        """Those of segment k."""
+        if self._listed is None or self._listed[0] is not self.x:
+            self._listed = self.x, self.x.tolist()
+        o = self.at[k]
+        return self._listed[1][o : o + (2 if self.kind(k) == LINE else 3)]
 
     @property
     def n_own(self) -> int:
@@ -183,7 +194,10 @@ class Model:
 
     def misfits(self) -> dict[int, Misfit]:
         """Misfit of each element."""
-        return self.normal(self.x)[2]
+        known = self._known_misfits
+        if known is None or known[0] is not self.x:
+            known = self._known_misfits = self.x, self.normal(self.x)[2]
+        return known[1]
 
     @property
     def chi_sq(self) -> float:
@@ -209,16 +223,23 @@ class Model:
 
         Directions count in arcs of the extent, as the other unknowns are lengths.
         """
-        unit = np.ones(len(self.x))
-        unit[[o for k, o in self.at.items() if self.kind(k) == LINE]] = 1.0 / self.extent
-        return _kernels.MeetingSteps(*self.equations(), unit, IMPLIED)
+        equations, known = self._equations(), self._known_steps
+        if known is None or known[0] is not self.x or known[1] is not equations:
+            unit = np.ones(len(self.x))
+            unit[[o for k, o in self.at.items() if self.kind(k) == LINE]] = 1.0 / self.extent
+            steps = _kernels.MeetingSteps(*equations.at(self.x), unit, IMPLIED)
+            known = self._known_steps = self.x, equations, steps
+        return known[2]
 
     def equations(self) -> tuple[FloatArray, FloatArray]:
         """Values and Jacobian of all constraints."""
+        return self._equations().at(self.x)
+
+    def _equations(self) -> Equations:
         known = self._known_equations
         if known is None or not known.are_of(self.constraints, len(self.x)):
             known = self._known_equations = Equations(self.constraints, len(self.x))
-        return known.at(self.x)
+        return known
 
     @property
     def n_free(self) -> int:

@@ -73,6 +73,7 @@ class Search:
     allowed: Collection[str]
     covariance: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
     found: list[Regularity] = field(default_factory=list)
+    _known_at: FloatArray | None = None  # the estimate whose covariance it is
 
     def run(self) -> list[Regularity]:
         """All families in turn; the model holds the estimate under what was taken."""
@@ -95,9 +96,12 @@ class Search:
         model = self.model
         if name not in self.allowed and name != "axis-parallel":
             return
-        kept, before = (model.x.copy(), list(model.constraints)), model.misfits()
-        self.covariance = model.covariance()
+        kept, before = (model.x, list(model.constraints)), model.misfits()
+        if self._known_at is not model.x:
+            self.covariance = model.covariance()
         taken = list(tried())
+        # Equations that hold condition it with the estimate; where none does it stays.
+        self._known_at = model.x if model.x is kept[0] else None
         if not taken:
             return
         model.solve()

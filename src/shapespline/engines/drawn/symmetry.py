@@ -60,11 +60,11 @@ def symmetries(
     if "mirror" not in allowed:
         return
     count = failed = 0
+    points = nodes_of(model)
     for turn in range(n):
         image = [(turn - k) % n for k in range(n)]
         if any(kinds[k] != kinds[image[k]] for k in range(n)):
             continue
-        points = nodes_of(model)
         mirrored = points[[(turn - k - 1) % n for k in range(n)]]
         axis, off = _axis(points, mirrored)
         if off > reach:
@@ -72,6 +72,7 @@ def symmetries(
         images = [(k, image[k]) for k in range(base) if image[k] >= k or base < n]
         if _kept(model, images, axis, None, fits_badly):
             yield "mirror", 2, off
+            points = nodes_of(model)
             count += 1
         else:
             failed += 1

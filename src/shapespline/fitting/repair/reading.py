@@ -30,8 +30,9 @@ class Reading(NamedTuple):
         Of such points a fit without weights has one direction only, whichever way weights run.
         """
         points, closed = contour.points, contour.closed
-        _, direction = canonical_reading(points, closed=closed)
-        start, step = canonical_reading(points, closed=closed, weights=weights)
+        start, step = _, direction = canonical_reading(points, closed=closed)
+        if weights is not None:
+            start, step = canonical_reading(points, closed=closed, weights=weights)
         order = (start + step * np.arange(len(contour))) % len(contour)
         return cls(order, direction < 0)
 
