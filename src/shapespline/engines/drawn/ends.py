@@ -12,7 +12,7 @@ from shapespline.engines.drawn.segments import CORNER, LINE
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
     from shapespline.engines.drawn.segments import Segments
-    from shapespline.typing import BoolArray, FloatArray
+    from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # A free-form run goes on smoothly from an element if its data do, radians.
 SMOOTH_END = 0.2
@@ -33,13 +33,7 @@ def at_corners(model: Model) -> Segments:
     row, n = model.row, len(model.row.found)
     if not model.seen.closed or not model.seen.pixel or model.seen.one_bit or n < 2:
         return row
-    steps = np.diff(row.points, axis=0)
-    before = np.roll(steps, 1, axis=0)
-    turns = np.abs(
-        np.arctan2(
-            before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0], (before * steps).sum(axis=1)
-        )
-    )
+    n_points = len(row.points) - 1
     begins = [segment.begin for segment in row.found]
     for k in range(n):
         m = (k + 1) % n
@@ -48,14 +42,22 @@ def at_corners(model: Model) -> Segments:
         own, way = (k, 1) if k in model.at else (m, -1)
         node, other = row.found[m].begin, row.found[m if own == k else k]
         reach = min(CORNER_REACH, (other.end - other.begin - 1) // 2)  # both of its ends may move
-        ahead = (node + way * np.arange(1, reach + 1)) % len(turns)
-        sharp = np.flatnonzero(turns[ahead] > CORNER)
-        if turns[node % len(turns)] > CORNER or len(sharp) == 0:
+        ahead = (node + way * np.arange(reach + 1)) % n_points
+        is_sharp = _turns(row.points[:-1], ahead) > CORNER
+        if is_sharp[0] or not is_sharp.any():
             continue
-        upto = ahead[: sharp[0] + 1]
+        upto = ahead[1 : is_sharp.argmax() + 1]
         if np.abs(off_by(model, own, row.points[upto])).max() <= ON * model.seen.largest_deviation:
             begins[m] = node + way * len(upto)
     return row if begins == [s.begin for s in row.found] else row.cut_at(begins)
+
+
+def _turns(points: FloatArray, at: IntArray) -> FloatArray:
+    """By how much closed data turn in some of their points, radians."""
+    before = points[at] - points[at - 1]
+    after = points[(at + 1) % len(points)] - points[at]
+    turns = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    return np.abs(np.arctan2(turns, (before * after).sum(axis=1)))
 
 
 def nodes_of(model: Model) -> dict[int, FloatArray]:
@@ -140,13 +142,16 @@ def cut_off(
 def away_from_data(model: Model, k: int, node: FloatArray) -> float:
     """Distance of the node behind segment k from the data polyline about it."""
     points, at, n = model.row.points, model.row.found[k].end, len(model.row.points)
-    around = np.arange(at - NEIGHBOURS, at + NEIGHBOURS + 1)
-    inner = (around >= 0) & (around < n)
-    around = around % (n - 1) if model.seen.closed else around[inner]
-    a, step = points[around[:-1]] - node, points[around[1:]] - points[around[:-1]]
-    length_sq = np.maximum((step**2).sum(axis=1), 1e-300)
-    share = np.clip(-(a * step).sum(axis=1) / length_sq, 0.0, 1.0)
-    return float(np.hypot(*(a + share[:, None] * step).T).min())
+    first, last = at - NEIGHBOURS, at + NEIGHBOURS + 1
+    if model.seen.closed and not 0 <= first < last < n:
+        around = points[np.arange(first, last) % (n - 1)]
+    else:
+        around = points[max(first, 0) : last]
+    x, y = (around[:-1] - node).T
+    u, v = (around[1:] - around[:-1]).T
+    share = -(x * u + y * v) / np.maximum(u * u + v * v, 1e-300)
+    share = np.minimum(np.maximum(share, 0.0), 1.0)
+    return float(np.hypot(x + share * u, y + share * v).min())
 
 
 def length_between(model: Model, k: int, begin: FloatArray, end: FloatArray) -> float:

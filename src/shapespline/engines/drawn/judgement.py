@@ -72,10 +72,10 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         m = (k + 1) % n
         if k not in model.at or m not in model.at:
             continue
-        beside = [model.row.points[i : j + 1] for i, j, _ in (model.row.found[s] for s in (k, m))]
         turn = turn_at(model, k, m, node)
+        beside = (model.row.points[i : j + 1] for i, j, _ in (model.row.found[s] for s in (k, m)))
         # Blunted corners lie farther from their points the sharper they are.
-        away = float(np.hypot(*(np.concatenate(beside) - node).T).min())
+        away = min(float(np.hypot(*(points - node).T).min()) for points in beside)
         far = away / reach * float(np.cos(0.5 * turn)) ** 0.5
         if model.seen.pixel and turn < SHALLOW:
             blunted = BLUNTING * float(np.tan(0.25 * turn)) * model.seen.pixel

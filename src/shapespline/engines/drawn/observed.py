@@ -113,9 +113,21 @@ class Observed:
         return BLUNTED * self.pixel
 
     @cached_property
+    def steps(self) -> FloatArray:
+        """Distances from each point to the next, of a closed outline from the last to the first."""
+        ahead = np.roll(self.points, -1, axis=0) if self.closed else self.points[1:]
+        return np.hypot(*(ahead - self.points[: len(ahead)]).T)
+
+    @cached_property
     def step(self) -> float:
         """Median distance of neighbours."""
-        return median(np.hypot(*np.diff(self.points, axis=0).T))
+        return median(self.steps[: len(self.points) - 1])
+
+    @cached_property
+    def box(self) -> tuple[FloatArray, float]:
+        """The middle of the points' box, and half of its longer side."""
+        low, high = self.points.min(axis=0), self.points.max(axis=0)
+        return 0.5 * (low + high), 0.5 * float((high - low).max())
 
 
 def _thinned(points: FloatArray, closed: bool, every: int) -> FloatArray:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from shapespline.engines.drawn.observed import Observed
     from shapespline.engines.drawn.segments import Segments
-    from shapespline.typing import FloatArray
+    from shapespline.typing import FloatArray, IntArray
 
     ComplexArray = NDArray[np.complex128]
 
@@ -102,13 +102,13 @@ def _parts(seen: Observed, row: Segments) -> list[_Part]:
     reach = max(OFF_PART * float(np.ptp(row.points, axis=0).max()), OFF_DEVIATIONS * seen.deviation)
     way = way_round(row.points)
 
-    def turns(order: int, every: int) -> bool:
-        images = _at(row, at[::every] + total / order) - middle
-        turned = np.exp(2j * np.pi * way / order) * places[::every]
-        return bool(abs(turned - images).max() <= reach)
+    def turning(orders: IntArray, every: int) -> IntArray:
+        images = _at(row, at[::every] + total / orders[:, None]) - middle
+        turned = np.exp(2j * np.pi * way / orders[:, None]) * places[::every]
+        return orders[abs(turned - images).max(axis=1) <= reach]
 
-    for order in range(min(HIGHEST, len(row.found)), 1, -1):
-        if turns(order, FIRST_EVERY) and turns(order, 1):
+    for order in turning(np.arange(min(HIGHEST, len(row.found)), 1, -1), FIRST_EVERY).tolist():
+        if len(turning(np.array([order]), 1)):
             begins = _begins(row)
             return [
                 _Part(begin, total / order, order, False)
@@ -120,10 +120,11 @@ def _parts(seen: Observed, row: Segments) -> list[_Part]:
     s = int(abs(products).argmax())
     less, most, more = abs(products[[s - 1, s, (s + 1) % PLACES]]).tolist()
     s_finer = s + 0.5 * (less - more) / min(less - 2.0 * most + more, -1e-300)
-    images = _at(row, s_finer * total / PLACES - at) - middle
     turn = products[s] / abs(products[s])
-    if abs(turn * places.conj() - images).max() > reach:
-        return []
+    for every in (FIRST_EVERY, 1):
+        images = _at(row, s_finer * total / PLACES - at[::every]) - middle
+        if abs(turn * places[::every].conj() - images).max() > reach:
+            return []
     begin = 0.5 * s_finer * total / PLACES
     return [_Part(begin + side, 0.5 * total, 2, True) for side in (0.0, 0.5 * total)]
 

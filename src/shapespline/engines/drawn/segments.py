@@ -139,8 +139,9 @@ def _near(nodes: Sequence[int], n: int) -> IntArray:
 
 def sharpest(points: FloatArray) -> int:
     """The point with the largest turn between chords of a sixtieth of a closed outline."""
-    k = max(2, len(points) // 60)
-    a, b = points - np.roll(points, k, axis=0), np.roll(points, -k, axis=0) - points
+    k, n = max(2, len(points) // 60), len(points)
+    around = np.concatenate([points[-k:], points, points[:k]])
+    a, b = points - around[:n], around[2 * k :] - points
     turn = np.abs(np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1)))
     return int(np.argmax(turn))
 
@@ -148,8 +149,15 @@ def sharpest(points: FloatArray) -> int:
 def _row(
     points: FloatArray, weights: FloatArray, first: int, found: tuple[Segment, ...]
 ) -> Segments:
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    return Segments(points, np.concatenate([[0.0], np.cumsum(steps)]), weights, first, found)
+    stations = _along(np.hypot(*np.diff(points, axis=0).T))
+    return Segments(points, stations, weights, first, found)
+
+
+def _along(steps: FloatArray) -> FloatArray:
+    """Arc lengths of a row of points so far apart."""
+    stations = np.zeros(len(steps) + 1)
+    np.cumsum(steps, out=stations[1:])
+    return stations
 
 
 def _solved(
@@ -158,16 +166,17 @@ def _solved(
     """Segments of the row that begins at a point, and what they cost."""
     n = len(seen.points)
     order = (np.arange(n + seen.closed) + start) % n
-    row = _row(seen.points[order], np.ones(len(order)), start, ())
-    weights = row.weights
+    points, stations = seen.points[order], _along(seen.steps[order[:-1]])
+    weights = np.ones(len(order))
     if seen.pixel:  # one independent sample to a pixel, or to more of them
-        weights = np.minimum(np.gradient(row.stations) / seen.pixel, 1.0) / seen.apart
-    low, high = row.points.min(axis=0), row.points.max(axis=0)
-    size = 0.5 * float((high - low).max())
+        weights[1:-1] = (stations[2:] - stations[:-2]) / 2.0
+        weights[[0, -1]] = stations[1] - stations[0], stations[-1] - stations[-2]
+        weights = np.minimum(weights / seen.pixel, 1.0) / seen.apart
+    middle, size = seen.box
     shortest = SHORTEST_STAIRS if seen.one_bit else SHORTEST_BLUNTED
     parts, cost = _kernels.drawn_pieces(
-        np.ascontiguousarray((row.points - 0.5 * (low + high)) / size),
-        row.stations / size,
+        (points - middle) / size,
+        stations / size,
         weights,
         np.array(sorted(candidates), dtype=np.int64),
         np.empty(0, dtype=np.int64) if nodes is None else nodes.astype(np.int64),
@@ -182,7 +191,8 @@ def _solved(
             joints=JOINTS,
         ),
     )
-    return row._replace(weights=weights, found=tuple(Segment(*part) for part in parts)), cost
+    found = tuple(Segment(*part) for part in parts)
+    return Segments(points, stations, weights, start, found), cost
 
 
 def _merged(row: Segments, seen: Observed) -> Segments:
@@ -261,7 +271,7 @@ def _is_flat(points: FloatArray, arc: Segment, seen: Observed) -> bool:
 def _on_one_line(points: FloatArray, sigma: float) -> bool:
     if len(points) < 4:
         return False
-    off = points - points.mean(axis=0)
-    across = off @ np.linalg.eigh(off.T @ off)[1][:, 0]
-    mean = float(np.sqrt((across**2).mean()))
-    return mean < MEAN_MISFIT * sigma and float(np.abs(across).max()) < LARGEST_MISFIT * sigma
+    direction, offset = _kernels.line_through(points, np.ones(len(points)))
+    across = np.abs(np.cos(direction) * points[:, 1] - np.sin(direction) * points[:, 0] - offset)
+    mean = (float(across @ across) / len(across)) ** 0.5
+    return mean < MEAN_MISFIT * sigma and float(across.max()) < LARGEST_MISFIT * sigma

@@ -98,7 +98,7 @@ def uncross(fit: Fit, request: Request, ask: Callable[[Request], Fit]) -> Fit:
 
 def told(fit: Fit) -> Fit:
     """The fit; its status says so if its curve crosses itself more often than its data do."""
-    count = self_crossings(_line_as_read(fit))
+    count = self_crossings(_line(Reading.of(fit.contour).curve(fit)))
     return _told(fit) if count and count > self_crossings(fit.contour.polyline) else fit
 
 
@@ -111,8 +111,11 @@ def uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], Fi
     which way they run.
     """
     readings = [Reading.of(fit.contour) for fit in fits]
+    lines = [_line(one.curve(fit)) for one, fit in zip(readings, fits, strict=True)]
+    if not (crossing_pairs(lines) or any(self_crossings(line) for line in lines)):
+        return list(fits)
     read = [reading.fit(fit) for reading, fit in zip(readings, fits, strict=True)]
-    pairs = _new_crossings([fit.contour for fit in read], [_line(fit) for fit in read])
+    pairs = _new_crossings([fit.contour for fit in read], lines)
     if not pairs:
         return list(fits)
     found = _uncrossed(read, pairs, request, ask)
@@ -186,11 +189,6 @@ def _given_up(
     if all(a is b for a, b in zip(fits, found, strict=True)):
         return found, lines, pairs
     return found, lines, _new_crossings([fit.contour for fit in found], lines)
-
-
-def _line_as_read(fit: Fit) -> FloatArray:
-    """The line of a fit in canonical order: whether it crosses must not depend on its direction."""
-    return _line(Reading.of(fit.contour).fit(fit))
 
 
 def _line(fit: Fit) -> FloatArray:

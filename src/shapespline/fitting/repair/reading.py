@@ -42,7 +42,7 @@ class Reading(NamedTuple):
 
     def fit(self, fit: Fit) -> Fit:
         """A fit of the contour as one of the contour in this order."""
-        return self._turned(replace(fit, contour=self.contour(fit.contour)))
+        return self.curve(replace(fit, contour=self.contour(fit.contour)))
 
     def restored(self, fit: Fit, read: Fit, found: Fit) -> Fit:
         """What a repair found for a fit that was ``read``, as one of the data as they are."""
@@ -50,10 +50,10 @@ class Reading(NamedTuple):
             return fit
         if found.sections is read.sections and found.spline is read.spline:
             return replace(fit, status=found.status)
-        again = verified_anew(fit, self._turned(found))
+        again = verified_anew(fit, self.curve(found))
         return replace(again, status=found.status, outliers=fit.outliers)
 
-    def _turned(self, fit: Fit) -> Fit:
+    def curve(self, fit: Fit) -> Fit:
         """The curve of a fit, run through the other way where the data are."""
         if not self.is_backwards:
             return fit
