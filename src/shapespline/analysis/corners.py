@@ -184,6 +184,8 @@ def tangent_jumps(
 
 def _are_bends(contour: Contour, corners: IntArray) -> NDArray[np.bool_]:
     """Whether the curvature rises and falls so gradually around corners that these are bends."""
+    if not len(corners):
+        return np.zeros(0, dtype=bool)
     steps = np.diff(contour.polyline, axis=0)
     if contour.closed:
         steps = np.concatenate([steps[-1:], steps])

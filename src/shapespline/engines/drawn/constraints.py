@@ -51,10 +51,13 @@ class Difference:
 
     def value(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """h, and its Jacobian."""
-        h, jacobian = x[list(self.a)] - self.turn, np.eye(len(self.a))
+        n = len(self.a)
+        h, jacobian = x[list(self.a)] - self.turn, np.zeros((n, len(self.index)))
+        rows = np.arange(n)
+        jacobian[rows, rows] = 1.0
         if self.b:
             h = h - self.sign * x[list(self.b)]
-            jacobian = np.hstack([jacobian, -self.sign * jacobian])
+            jacobian[rows, n + rows] = -self.sign
         return h, jacobian
 
 

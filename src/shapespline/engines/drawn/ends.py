@@ -62,6 +62,12 @@ def _turns(points: FloatArray, at: IntArray) -> FloatArray:
 
 def nodes_of(model: Model) -> dict[int, FloatArray]:
     """Where each segment ends, if it or the next one is an element; -1 for an open beginning."""
+    if model.known_nodes is None or model.known_nodes[0] is not model.x:
+        model.known_nodes = model.x, _nodes_of(model)
+    return model.known_nodes[1]
+
+
+def _nodes_of(model: Model) -> dict[int, FloatArray]:
     found, n = model.row.found, len(model.row.found)
     points, nodes = model.row.points, {}
     for k in range(n):

@@ -70,6 +70,7 @@ class Model:
     ends: FloatArray | None = None
     # What was found at a vector of unknowns, which is never changed in place.
     _listed: tuple[FloatArray, list[float]] | None = None
+    known_nodes: tuple[FloatArray, dict[int, FloatArray]] | None = None
     _known_misfits: tuple[FloatArray, dict[int, Misfit]] | None = None
     _known_equations: Equations | None = None
     _known_steps: tuple[FloatArray, Equations, _kernels.MeetingSteps] | None = None
@@ -128,7 +129,7 @@ class Model:
     @cached_property
     def extent(self) -> float:
         """Of the outline."""
-        return float(np.ptp(self.row.points, axis=0).max())
+        return 2.0 * self.seen.box[1]
 
     def _key(self, k: int) -> Key:
         """Which points a segment has and what it is, wherever the row begins."""

@@ -91,16 +91,20 @@ class Observed:
     def rougher(self, factor: float) -> Observed:
         """The same of a picture so many times less exact than its kind is."""
         deviation = factor * self.largest_deviation
-        return replace(
-            self,
-            deviation=deviation,
-            largest_deviation=deviation,
-            floor=SYSTEMATIC * deviation,
-        )
+        floor = SYSTEMATIC * deviation
+        return self._but(deviation=deviation, largest_deviation=deviation, floor=floor)
 
     def slow(self) -> Observed:
         """The same with errors that go on for longer."""
-        return replace(self, apart=APART)
+        return self._but(apart=APART)
+
+    def _but(self, **changes: float) -> Observed:
+        """The same points otherwise; what is known of them alone is known."""
+        other = replace(self, **changes)  # type: ignore[arg-type]
+        for name in ("steps", "step", "box"):
+            if name in self.__dict__:
+                other.__dict__[name] = self.__dict__[name]
+        return other
 
     @property
     def one_bit(self) -> bool:

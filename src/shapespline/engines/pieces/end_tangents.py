@@ -12,6 +12,7 @@ import numpy as np
 
 from shapespline.engines.pieces.constraints import Constraints
 from shapespline.geometry import backwards, elevated
+from shapespline.validation import distinct
 from shapespline.values import EXACT_TURN, SMOOTH_TURN, Contour, Piece, with_knot
 
 if TYPE_CHECKING:
@@ -41,13 +42,14 @@ def extended(problem: PiecesProblem) -> PiecesProblem:
     first = np.array([] if begin is None else [shift], dtype=np.int64)
     last = np.array([] if end is None else [shift + n - 1], dtype=np.int64)
     at = np.concatenate([first, last])
+    corners = sorted({*(problem.corners + shift).tolist()} - {*at.tolist()})
     low_turn = np.ones(len(points), dtype=np.int64)
     low_turn[shift : shift + n] = problem.low_turn
-    through = np.union1d(problem.constraints.through + shift, at)
+    through = distinct(problem.constraints.through + shift, at)
     constraints = Constraints(True, through, after_extension=first, before_extension=last)
     return problem._replace(
         normalized=problem.normalized._replace(contour=Contour.trusted(points, closed=False)),
-        corners=np.setdiff1d(problem.corners + shift, at),
+        corners=np.array(corners, dtype=np.int64),
         low_turn=low_turn,
         constraints=constraints,
     )

@@ -156,10 +156,13 @@ def line_of(curve: BSplineCurve, tolerance: float, corners: FloatArray) -> Float
         (corners[:, None] + sign * steps[at][:, None] * HALVINGS).ravel()
         for at, sign in ((before, -1), ((before + 1) % len(steps), 1))
     ]
-    more = np.array(sorted({*np.concatenate(beside).tolist()} - {*parameters.tolist()}))
+    more = np.sort(np.concatenate(beside))
     more = more[(more > parameters[0]) & (more < parameters[-1])]
-    at = np.searchsorted(parameters, more)
-    return np.insert(points, at, curve(more), axis=0)
+    is_new = parameters[np.searchsorted(parameters, more)] != more
+    is_new[1:] &= more[1:] > more[:-1]
+    more = more[is_new]
+    order = np.argsort(np.concatenate([parameters, more]), kind="stable")
+    return np.concatenate([points, curve(more)])[order]
 
 
 def _chords(piece: Piece, tolerance: float) -> FloatArray:
