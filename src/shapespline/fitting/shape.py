@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from operator import is_
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -216,11 +217,13 @@ def _together(
 ) -> tuple[list[Fit], tuple[Regularity, ...]]:
     """Fits under what they keep together, uncrossed; and what that is."""
     allowed = asked.style.regularities
+    alone = fits
     fits, found = across_outlines(fits, allowed, tolerance)
     if asked.style.character == "drawn" and "equal-copies" in allowed:
         fits, equal = equal_copies(fits, tolerance)
         found += equal
-    apart = uncrossed(fits, asked, lambda part: answer(part, monitor()))
+    each_is_told = tolerance is not None and all(map(is_, fits, alone))
+    apart = uncrossed(fits, asked, lambda part: answer(part, monitor()), each_is_told=each_is_told)
     same = {k for k, (one, now) in enumerate(zip(fits, apart, strict=True)) if one is now}
     return apart, tuple(one for one in found if same.issuperset(one.pieces))
 

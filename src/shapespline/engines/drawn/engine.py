@@ -302,9 +302,8 @@ def _whole_circle(seen: Observed) -> DrawnArc | None:
     cx, cy, r = _kernels.circle_through(points, np.ones(len(points)))
     off = np.hypot(points[:, 0] - cx, points[:, 1] - cy) - r
     most = ROUND if seen.pixel else ROUND_OF_POINTS
-    if float(np.sqrt((off**2).mean())) > most * seen.largest_deviation:
-        return None
-    if float(np.abs(off).max()) > LARGEST * seen.largest_deviation:
+    mean, largest = float(np.sqrt((off**2).mean())), float(np.abs(off).max())
+    if mean > most * seen.largest_deviation or largest > LARGEST * seen.largest_deviation:
         return None
     x, y = points.T
     area = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))

@@ -51,6 +51,15 @@ def meeting(model: Model, k: int, m: int, near: FloatArray) -> FloatArray:
     return np.array(_of_circles(model, k, m, beside))
 
 
+def distance_from(model: Model, k: int, x: float, y: float) -> float:
+    """How far a point is from the whole line or circle of an element."""
+    own = model.unknowns(k)
+    if model.kind(k) == LINE:
+        tx, ty = _unit_of(own[0])
+        return abs(tx * y - ty * x - own[1])
+    return abs(float(np.hypot(x - own[0], y - own[1])) - own[2])
+
+
 def turn_at(model: Model, k: int, m: int, point: FloatArray) -> float:
     """Angle between two elements at their common point, radians."""
     (ax, ay), (bx, by) = _direction_at(model, k, point), _direction_at(model, m, point)

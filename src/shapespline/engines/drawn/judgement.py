@@ -20,6 +20,7 @@ from shapespline.engines.drawn.segments import ARC, FREE
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
     from shapespline.engines.drawn.segments import Segments
+    from shapespline.typing import FloatArray
     from shapespline.values import Regularity
 
 # An element whose points are off by more deviations in the mean, or at most, is none (DRA-06).
@@ -44,6 +45,8 @@ BLUNT = np.radians(1.0), np.radians(4.0)
 # A node is no farther from its data than so many steps and deviations: lines that are nearly
 # parallel meet anywhere (DRA-06).
 NODE_STEPS, NODE_DEVIATIONS = 3.0, 20.0
+# So many points on either side of a node are looked at first.
+NEAREST = 4
 # A picture's corner that turns by less is where its data are, but for so many deviations and what
 # the pixel's box takes off: 0.4 pixel of a right angle (DRA-29).
 SHALLOW, CORNER_OFF = np.radians(60.0), 3.0
@@ -73,10 +76,11 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         if k not in model.at or m not in model.at:
             continue
         turn = turn_at(model, k, m, node)
-        beside = (model.row.points[i : j + 1] for i, j, _ in (model.row.found[s] for s in (k, m)))
         # Blunted corners lie farther from their points the sharper they are.
-        away = min(float(np.hypot(*(points - node).T).min()) for points in beside)
-        far = away / reach * float(np.cos(0.5 * turn)) ** 0.5
+        sharpness = float(np.cos(0.5 * turn)) ** 0.5
+        far = _to_points(model, k, m, node, NEAREST) / reach * sharpness
+        if far > 1.0:  # of the nearest points in the row, but others may be nearer
+            far = _to_points(model, k, m, node, len(model.row.points)) / reach * sharpness
         if model.seen.pixel and turn < SHALLOW:
             blunted = BLUNTING * float(np.tan(0.25 * turn)) * model.seen.pixel
             far = max(far, away_from_data(model, k, node) / (CORNER_OFF * sigma + blunted))
@@ -94,6 +98,16 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         if far > 1.0:
             bad.append((far, k))
     return [max(bad)[1]] if bad else []
+
+
+def _to_points(model: Model, k: int, m: int, node: FloatArray, n: int) -> float:
+    """Distance of a node from the last n points of the segment before it, the first n behind it."""
+    before, after = model.row.found[k], model.row.found[m]
+    points = (
+        model.row.points[max(before.begin, before.end - n) : before.end + 1],
+        model.row.points[after.begin : min(after.end, after.begin + n) + 1],
+    )
+    return min(float(np.hypot(*(some - node).T).min()) for some in points)
 
 
 def without_few(model: Model) -> Segments | None:

@@ -13,15 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.engines.drawn.constraints import Images
-from shapespline.engines.drawn.ends import off_by
-from shapespline.engines.drawn.joints import meeting
+from shapespline.engines.drawn.joints import distance_from, meeting
 from shapespline.engines.drawn.segments import ARC, FREE, LINE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Sequence
 
     from shapespline.engines.drawn.model import Misfit, Model
-    from shapespline.typing import FloatArray
+    from shapespline.typing import BoolArray, FloatArray
 
     Judge = Callable[[Model, dict[int, Misfit]], bool]
 
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
 MISSED_PART, MISSED_DEVIATIONS = 0.003, 6.0
 # Rounds that show whether a model bears a map; of mirrors that it does not so many are tried.
 ROUNDS, MOST_FAILURES = 5, 3
+ROUNDING = 1e-9
 
 
 def symmetries(
@@ -61,9 +61,10 @@ def symmetries(
         return
     count = failed = 0
     points = nodes_of(model)
+    able = _turns_of_mirrors(points, reach)
     for turn in range(n):
         image = [(turn - k) % n for k in range(n)]
-        if any(kinds[k] != kinds[image[k]] for k in range(n)):
+        if not able[turn] or any(kinds[k] != kinds[image[k]] for k in range(n)):
             continue
         mirrored = points[[(turn - k - 1) % n for k in range(n)]]
         axis, off = _axis(points, mirrored)
@@ -73,6 +74,7 @@ def symmetries(
         if _kept(model, images, axis, None, fits_badly):
             yield "mirror", 2, off
             points = nodes_of(model)
+            able = _turns_of_mirrors(points, reach)
             count += 1
         else:
             failed += 1
@@ -128,10 +130,20 @@ def _across(model: Model, images: FloatArray, step: int) -> float:
     """
     n = len(images)
     return max(
-        float(np.abs(off_by(model, (k + side) % n, images[[k - step]])).max())
+        distance_from(model, (k + side) % n, *images[k - step].tolist())
         for k in range(n)
         for side in (0, 1)
     )
+
+
+def _turns_of_mirrors(points: FloatArray, reach: float) -> BoolArray:
+    """For each turn whether nodes are as far from their middle as those that they may map onto.
+
+    Others miss by more than the reach whatever the axis.
+    """
+    n, far = len(points), np.hypot(*(points - points.mean(axis=0)).T)
+    images = far[(np.arange(n)[:, None] - np.arange(n) - 1) % n]
+    return np.asarray(np.abs(images - far).max(axis=1) <= (1.0 + ROUNDING) * reach)
 
 
 def _missed(points: FloatArray, others: FloatArray) -> float:

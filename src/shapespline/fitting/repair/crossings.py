@@ -102,14 +102,23 @@ def told(fit: Fit) -> Fit:
     return _told(fit) if count and count > self_crossings(fit.contour.polyline) else fit
 
 
-def uncrossed(fits: Sequence[Fit], request: Request, ask: Callable[[Request], Fit]) -> list[Fit]:
+def uncrossed(
+    fits: Sequence[Fit],
+    request: Request,
+    ask: Callable[[Request], Fit],
+    *,
+    each_is_told: bool = False,
+) -> list[Fit]:
     """Fits whose curves cross no more than their data, as far as other pieces bring that about.
 
     ``ask`` answers sub-requests in the style of ``request``. Of the rows tried the one with the
     fewest parts that cross is taken. Fits that cross after all say so in their status. Points are
     read in their canonical order: what is repaired does not depend on which of them comes first and
-    which way they run.
+    which way they run. Where ``each_is_told`` a status says so already of a fit that crosses
+    itself, and the others are looked at only where they may cross each other.
     """
+    if each_is_told and not any(_crosses(fit) for fit in fits) and not _may_cross(fits):
+        return list(fits)
     readings = [Reading.of(fit.contour) for fit in fits]
     lines = [_line(one.curve(fit)) for one, fit in zip(readings, fits, strict=True)]
     if not (crossing_pairs(lines) or any(self_crossings(line) for line in lines)):
@@ -189,6 +198,19 @@ def _given_up(
     if all(a is b for a, b in zip(fits, found, strict=True)):
         return found, lines, pairs
     return found, lines, _new_crossings([fit.contour for fit in found], lines)
+
+
+def _may_cross(fits: Sequence[Fit]) -> bool:
+    """Whether curves whose boxes overlap cross each other."""
+    if len(fits) < 2:
+        return False
+    boxes = np.array([[*f.control_points.min(axis=0), *f.control_points.max(axis=0)] for f in fits])
+    low, high = boxes[:, :2], boxes[:, 2:]
+    beside = [
+        k for k in range(len(fits)) if ((low <= high[k]) & (high >= low[k])).all(axis=1).sum() > 1
+    ]
+    lines = [_line(Reading.of(fits[k].contour).curve(fits[k])) for k in beside]
+    return bool(crossing_pairs(lines))
 
 
 def _line(fit: Fit) -> FloatArray:
