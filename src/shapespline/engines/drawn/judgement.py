@@ -103,10 +103,9 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
 def _to_points(model: Model, k: int, m: int, node: FloatArray, n: int) -> float:
     """Distance of a node from the last n points of the segment before it, the first n behind it."""
     before, after = model.row.found[k], model.row.found[m]
-    points = (
-        model.row.points[max(before.begin, before.end - n) : before.end + 1],
-        model.row.points[after.begin : min(after.end, after.begin + n) + 1],
-    )
+    first, last = max(before.begin, before.end - n), min(after.end, after.begin + n)
+    cuts = [(first, last)] if m > k else [(first, before.end), (after.begin, last)]
+    points = (model.row.points[i : j + 1] for i, j in cuts)
     return min(float(np.hypot(*(some - node).T).min()) for some in points)
 
 

@@ -150,19 +150,19 @@ class Search:
         model, quarter = self.model, pi / 2
         heads: list[int] = []
         for k in self._best_known(LINE, 0):
-            o = model.at[k]
-            turn = round(model.x[o] / quarter) * quarter
-            off = float(model.x[o] - turn)
+            o, own = model.at[k], model.unknowns(k)[0]
+            turn = round(own / quarter) * quarter
+            off = own - turn
             level = "axis-parallel" in self.allowed and abs(off) < DIRECTIONS
             if level and self.takes(Difference((o,), (), turn), quarter):
                 heads.insert(0, k)
                 yield Regularity("axis-parallel", (k,), float(np.degrees(off)))
                 continue
             for head in heads:
-                p = model.at[head]
-                turns = round((model.x[o] - model.x[p]) / quarter)
+                p, other = model.at[head], model.unknowns(head)[0]
+                turns = round((own - other) / quarter)
                 name = "perpendicular" if turns % 2 else "parallel"
-                off = float(model.x[o] - model.x[p] - turns * quarter)
+                off = own - other - turns * quarter
                 if name not in self.allowed or abs(off) >= DIRECTIONS:
                     continue
                 if self.takes(Difference((o,), (p,), turns * quarter), quarter):
@@ -227,10 +227,12 @@ class Search:
         furthest: dict[int, float] = {}
         # Any two of many may agree by chance: each has its part of the range.
         span = model.extent / max(len(edges), 1)
-        for k in sorted(edges, key=lambda k: -edges[k].length(model.x)[0]):
-            length = edges[k].length(model.x)[0]
+        at, lengths = model.x, {k: edge.length(model.x)[0] for k, edge in edges.items()}
+        for k in sorted(edges, key=lambda k: -lengths[k]):
+            if at is not model.x:  # an equation was taken
+                at, lengths = model.x, {k: edges[k].length(model.x)[0] for k in edges}
             for head, own in heads.items():
-                off = length - edges[head].length(model.x)[0]
+                off = lengths[k] - lengths[head]
                 if abs(off) > LENGTHS * model.seen.deviation:
                     continue
                 if self.takes(EqualLengths(edges[head], edges[k]), span):
