@@ -99,3 +99,11 @@ def test_among_some_ranks():
     assert found.among(ONE_SPLINE) is None
     assert found.kept
     assert len(found) == 2
+
+
+def test_one_alone_is_not_compared(monkeypatch):
+    one, other = candidate(PIECES), candidate(LINES)
+    found = shortlist(flower(), one, other)
+    monkeypatch.setattr(Shortlist, "_preference", None)  # which would look for corners
+    assert found.among(PIECES) is one
+    assert found.among(MIRRORED) is None

@@ -132,3 +132,19 @@ def test_what_comes_apart_without_a_tolerance_keeps_what_it_has():
     assert crossings(apart, loose.tolerance) == 0
     assert apart.status.value.startswith("no tolerance asked for")
     assert apart.tolerance == max(apart.max_distance, apart.hausdorff_distance)
+
+
+def test_curves_that_are_told_alone_are_looked_at_beside_each_other():
+    x = np.linspace(0, 10, 150)
+    low = ss.Contour(np.column_stack([x, np.sin(x)]), closed=False)
+    high = ss.Contour(np.column_stack([x, np.sin(x) + 0.03 * (1.5 + np.cos(9 * x))]), closed=False)
+    far = ss.Contour(high.points + np.array([0.0, 9.0]), closed=False)
+    low, high, far = (ss.fit_curve(contour, tolerance=0.4) for contour in (low, high, far))
+    request = Request.of(low.contour, None, Settings(tolerance=0.4))
+
+    def apart(*fits, **said):
+        return uncrossed(fits, request, lambda asked: answer(asked, Monitor()), **said)
+
+    assert apart(low, far, each_is_told=True) == [low, far]
+    assert apart(low, each_is_told=True) == [low]
+    assert apart(low, high, each_is_told=True) == apart(low, high) != [low, high]
