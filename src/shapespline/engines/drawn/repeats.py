@@ -152,21 +152,20 @@ def _read_alike(
         if exactly:
             images = part.images(part.begin + away + _median_miss(begins, part, images, near))
         stations += images
-    nodes: set[int] = set()
-    for station in stations:
-        k = int(np.abs(_apart(begins, station, total)).argmin())
-        if not exactly and _between(begins[k : k + 1], station, total) <= near:
-            nodes.add(row.found[k].begin)
-        else:
-            nodes.add(int(np.abs(row.stations[:-1] - station % total).argmin()))
+    wanted = np.array(stations)
+    off = np.abs(_apart(begins, wanted[:, None], total))
+    stays = off.min(axis=1, initial=np.inf) <= (-1.0 if exactly else near)
+    nodes = {row.found[k].begin for k in off[stays].argmin(axis=1).tolist()}
+    for station in (wanted[~stays] % total).tolist():
+        nodes.add(int(np.abs(row.stations[:-1] - station).argmin()))
     ordered = sorted(nodes)
     if len(ordered) < 2:
         return None
     ends = [*row.stations[ordered[1:]].tolist(), float(row.stations[ordered[0]]) + total]
-    kinds = []
-    for node, end in zip(ordered, ends, strict=True):
-        inside = part.folded(0.5 * (float(row.stations[node]) + end)) % total
-        kinds.append(row.found[int(np.searchsorted(begins, inside, side="right")) - 1].kind)
+    own = zip(row.stations[ordered].tolist(), ends, strict=True)
+    inside = [part.folded(0.5 * (begin + end)) % total for begin, end in own]
+    read = np.searchsorted(begins, inside, side="right") - 1
+    kinds = [row.found[k].kind for k in read.tolist()]
     whole = next((k for k, kind in enumerate(kinds) if kind != FREE), 0)
     ordered, kinds = ordered[whole:] + ordered[:whole], kinds[whole:] + kinds[:whole]
     named = row._replace(found=tuple(Segment(0, 0, kind) for kind in kinds))
@@ -175,13 +174,12 @@ def _read_alike(
 
 def _median_miss(begins: FloatArray, part: _Part, images: list[float], near: float) -> float:
     """How far nodes are from images of one, along the part; the median of those that are near."""
-    total, missed = part.order * part.length, []
-    for k, image in enumerate(images):
-        off = _apart(begins, image, total)
-        nearest = float(off[np.abs(off).argmin()])
-        if abs(nearest) <= near:
-            missed.append(-nearest if part.is_mirrored and k else nearest)
-    return float(np.median(missed)) if missed else 0.0
+    off = _apart(begins, np.array(images)[:, None], part.order * part.length)
+    nearest = off[np.arange(len(images)), np.abs(off).argmin(axis=1)]
+    if part.is_mirrored:
+        nearest[1:] = -nearest[1:]
+    missed = nearest[np.abs(nearest) <= near]
+    return float(np.median(missed)) if len(missed) else 0.0
 
 
 def _begins(row: Segments) -> FloatArray:
@@ -205,8 +203,8 @@ def _joined(row: Segments) -> Segments:
     return row._replace(found=tuple(found))
 
 
-def _apart(stations: FloatArray, other: float, total: float) -> FloatArray:
-    """From a station to others, the shorter way round."""
+def _apart(stations: FloatArray, other: float | FloatArray, total: float) -> FloatArray:
+    """From a station to others, the shorter way round; a row for each of some in a column."""
     return (stations - other + 0.5 * total) % total - 0.5 * total
 
 
