@@ -227,12 +227,20 @@ class Search:
         furthest: dict[int, float] = {}
         # Any two of many may agree by chance: each has its part of the range.
         span = model.extent / max(len(edges), 1)
-        at, lengths = model.x, {k: edge.length(model.x)[0] for k, edge in edges.items()}
-        for k in sorted(edges, key=lambda k: -lengths[k]):
+        at, known = model.x, dict[int, float]()
+
+        def length(k: int) -> float:
+            nonlocal at
             if at is not model.x:  # an equation was taken
-                at, lengths = model.x, {k: edges[k].length(model.x)[0] for k in edges}
+                at = model.x
+                known.clear()
+            if k not in known:
+                known[k] = edges[k].length(model.x)[0]
+            return known[k]
+
+        for k in sorted(edges, key=lambda k: -length(k)):
             for head, own in heads.items():
-                off = lengths[k] - lengths[head]
+                off = length(k) - length(head)
                 if abs(off) > LENGTHS * model.seen.deviation:
                     continue
                 if self.takes(EqualLengths(edges[head], edges[k]), span):
