@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.validation import distinct
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -123,7 +122,7 @@ def segmented(seen: Observed, known: Segments | None = None) -> Segments:
         begin = (start + far) % n
         about = [(at - far) % n for at in nodes]
         near = np.concatenate([_near(about, n), (n - far) % n + np.arange(-FREED, FREED + 1)])
-        again, other = _solved(seen, begin, about, distinct(near[(near > 0) & (near < n)]))
+        again, other = _solved(seen, begin, about, near[(near > 0) & (near < n)])
         if other <= cost * (1 + 1e-12):
             best = again
     best = _merged(best, seen)
@@ -134,7 +133,7 @@ def segmented(seen: Observed, known: Segments | None = None) -> Segments:
 def _near(nodes: Sequence[int], n: int) -> IntArray:
     """Some points of a row of n + 1 and their neighbours, without its ends."""
     near = np.add.outer(nodes, np.arange(-NEAR, NEAR + 1)).ravel()
-    return distinct(near[(near > 0) & (near < n)])
+    return near[(near > 0) & (near < n)]
 
 
 def sharpest(points: FloatArray) -> int:
@@ -164,10 +163,9 @@ def _solved(
     seen: Observed, start: int, candidates: Sequence[int] = (), nodes: IntArray | None = None
 ) -> tuple[Segments, float]:
     """Segments of the row that begins at a point, and what they cost."""
-    n = len(seen.points)
-    order = (np.arange(n + seen.closed) + start) % n
-    points, stations = seen.points[order], _along(seen.steps[order[:-1]])
-    weights = np.ones(len(order))
+    points = np.concatenate([seen.points[start:], seen.points[: start + seen.closed]])
+    stations = _along(np.concatenate([seen.steps[start:], seen.steps[:start]]))
+    weights = np.ones(len(points))
     if seen.pixel:  # one independent sample to a pixel, or to more of them
         weights[1:-1] = (stations[2:] - stations[:-2]) / 2.0
         weights[[0, -1]] = stations[1] - stations[0], stations[-1] - stations[-2]
@@ -178,8 +176,8 @@ def _solved(
         (points - middle) / size,
         stations / size,
         weights,
-        np.array(sorted(candidates), dtype=np.int64),
-        np.empty(0, dtype=np.int64) if nodes is None else nodes.astype(np.int64),
+        np.array(candidates, dtype=np.int64),
+        np.empty(0, dtype=np.int64) if nodes is None else nodes,
         _kernels.SegmentationSettings(
             deviation=seen.deviation / size,
             skip=seen.skip / size,
@@ -187,11 +185,11 @@ def _solved(
             price=PRICE,
             free_parameters=FREE_PARAMETERS if seen.pixel else FREE_OF_POINTS,
             smooth_turn=float(np.tan(SMOOTH)),
-            stride=max(FREE_STEP, round(len(order) / FREE_PARTS)),
+            stride=max(FREE_STEP, round(len(points) / FREE_PARTS)),
             joints=JOINTS,
         ),
     )
-    found = tuple(Segment(*part) for part in parts)
+    found = tuple(map(Segment._make, parts))
     return Segments(points, stations, weights, start, found), cost
 
 
