@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 # Of prints: what is seen of the disc beside a drawing, pixels, and colours, red, green and blue.
 BESIDE = 64
 PAPER, INKS = (247, 244, 236), ((200, 40, 30), (30, 42, 68))
+# Of drawings that fill their picture.
+CUT = "cut to the ink"
 
 
 class MissingError(Exception):
@@ -189,6 +191,11 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "blurred by 1.5": lambda outlines, size: scanned(outlines, size, blur=1.5, grain=0.5),
     "scanned, JPEG 90": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.0, grain=8.0)),
     "badly scanned": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.2, grain=12.0)),
+    CUT: exact,
+    f"{CUT}, JPEG 90": lambda outlines, size: jpeg(exact(outlines, size)),
+    f"{CUT}, scanned, JPEG 90": lambda outlines, size: jpeg(
+        scanned(outlines, size, blur=1.0, grain=8.0)
+    ),
     "printed": printed,
     "photographed": photographed,
 }

@@ -11,9 +11,9 @@ import shapespline as ss
 from benchmarks.drawn.catalogue import drawings, names_of
 from benchmarks.drawn.found import Found
 from benchmarks.drawn.measure import Figures
-from benchmarks.drawn.renderers import RENDERERS, MissingError
+from benchmarks.drawn.renderers import CUT, RENDERERS, MissingError
 from benchmarks.drawn.tracers import CHARACTERS, PEERS, ours
-from benchmarks.drawn.truth import placed, sampled
+from benchmarks.drawn.truth import filling, placed, sampled
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -64,6 +64,8 @@ def rendered(name: str, size: int, renderer: str = EXACT) -> tuple[list[Outline]
     """Outlines in pixels, and their picture."""
     drawing = drawings()[name]
     outlines = placed(drawing.outlines, size, drawing.turn, seed=1)
+    if renderer.startswith(CUT):
+        outlines = filling(outlines, size)
     return outlines, RENDERERS[renderer](outlines, size)
 
 

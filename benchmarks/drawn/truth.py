@@ -14,6 +14,10 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
+# Pixels from the sides at which a drawing that fills its picture begins, but for rounding there,
+# and ends.
+BEGINS, ENDS_BEFORE = 1e-6, 0.3
+
 
 @dataclass(frozen=True, eq=False)
 class Line:
@@ -119,6 +123,19 @@ def placed(outlines: Sequence[Outline], size: int, turn: float, seed: int) -> li
     random = np.random.default_rng(seed)
     shift = 0.5 * size - scale * 0.5 * (low + high) + random.uniform(-0.5, 0.5, 2)
     return [tuple(e.moved(scale, 0.0, shift) for e in outline) for outline in turned]
+
+
+def filling(outlines: Sequence[Outline], size: int) -> list[Outline]:
+    """Outlines as large as a square picture, as cut to the ink, in the middle the other way.
+
+    They touch its left or lower side, and end in a pixel of the opposite one.
+    """
+    points = np.concatenate([sampled(outline, 0.01) for outline in outlines])
+    low, high = points.min(axis=0), points.max(axis=0)
+    scale = (size - BEGINS - ENDS_BEFORE) / float((high - low).max())
+    middle = 0.5 * (size - scale * (high - low))
+    shift = np.where(high - low == (high - low).max(), BEGINS, middle) - scale * low
+    return [tuple(e.moved(scale, 0.0, shift) for e in outline) for outline in outlines]
 
 
 def turn_of(before: Element, after: Element) -> float:

@@ -34,6 +34,16 @@ def polygon(points):
     return inside
 
 
+def tile(side, radius):
+    """For :func:`coverage`: a square with round corners that fills a picture so large."""
+
+    def inside(x, y):
+        dx, dy = (np.maximum(np.abs(c - side / 2) - (side / 2 - radius), 0) for c in (x, y))
+        return np.hypot(dx, dy) <= radius
+
+    return inside
+
+
 def strip(angle, width, middle):
     """For :func:`coverage`: a straight stroke through a point, its normal at an angle."""
     normal = np.cos(np.radians(angle)), np.sin(np.radians(angle))

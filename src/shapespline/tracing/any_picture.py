@@ -59,11 +59,12 @@ def trace(
         light. Otsu's level if not given.
     polarity : {"auto", "dark", "light"}
         Whether the shape is darker or lighter than the level. "auto": the background is what
-        most of the image's rim is.
+        most of the image's rim is, what shows in the corners of a figure that fills the image if
+        that is lighter, or clear.
     channel : {"auto", "grey", "red", "green", "blue", "alpha", "difference"}
         The value of a pixel. "difference" is the root mean square difference from the median
-        colour of the rim, so that red on green of the same lightness is found. "auto" is grey
-        for grey pictures and whenever ``level`` or ``polarity`` is given (both speak of
+        colour of the background, so that red on green of the same lightness is found. "auto" is
+        grey for grey pictures and whenever ``level`` or ``polarity`` is given (both speak of
         lightness); the alpha for one colour on a transparent ground; else the difference.
         Partly transparent pictures of several colours are laid on white, or on black if what is
         visible is mostly light.
@@ -105,10 +106,10 @@ def trace(
         Closed contours, largest area first, outer ones counter-clockwise and holes clockwise.
         Unit pixel, y up, pixel centres at half-integers: x = column + 0.5,
         y = h - (row + 0.5); ``frame`` is (0, 0, w, h). Shapes cut off by the rim are closed
-        along it. Each contour has the ``level_line`` that it was read along, and the ``accuracy``
-        that drawings with known outlines have been found with: 0.02 pixels where the grey tells the
-        edge, 0.07 where only the level does, 0.25 where there is no grey. What was left out as
-        noise is in ``left_out``.
+        along it; what ends in its pixels ends there. Each contour has the ``level_line`` that it
+        was read along, and the ``accuracy`` that drawings with known outlines have been found with:
+        0.02 pixels where the grey tells the edge, 0.07 where only the level does, 0.25 where there
+        is no grey. What was left out as noise is in ``left_out``.
 
     Raises
     ------

@@ -32,6 +32,9 @@ EVEN, EVEN_NOISE = 0.006, 4.0
 NOISIEST = 0.02
 # Two even parts with less than this part of the picture's contrast between them are no edge.
 LEAST_STEP = 0.25
+# Grey so many pixels from an edge and less belongs to it, if it is at the rim of the picture
+# (TRC-23).
+RIM_REACH = 2
 # Pixels that a place may move along its row or column, and how far ground on both sides of a
 # stroke may differ.
 FARTHEST, SAME_GROUND = 0.7, 0.08
@@ -54,11 +57,33 @@ def no_edges(shares: FloatArray) -> Edges:
 def level_shares(field: Field, found: Crossings) -> FloatArray:
     """Where linear interpolation between two pixel centres puts the level.
 
-    Ink that does not reach the level, of a thread, reaches it barely.
+    Ink that does not reach the level, of a thread, reaches it barely. What is cut off by the rim
+    ends there; beside what ends before lies ground (TRC-23).
     """
     first, second = found.excesses(field)
-    at_rim = found.at_rim(*field.shape)
-    return np.where(at_rim, 0.5, first / np.where(at_rim, 1.0, first - second))
+    at_rim, ends = found.at_rim(*field.shape), ends_at_rim(field, found)
+    first = np.where(ends & ~found.ink_first, -0.5, first)
+    second = np.where(ends & found.ink_first, -0.5, second)
+    cut_off = at_rim & ~ends
+    return np.where(cut_off, 0.5, first / np.where(cut_off, 1.0, first - second))
+
+
+def ends_at_rim(field: Field, found: Crossings) -> BoolArray:
+    """Crossings between the picture and what is outside, of ink that ends in a pixel of the rim.
+
+    That one has less of it than the next one inside. Ink that the rim cuts off fills both alike.
+    """
+    ends = found.at_rim(*field.shape)
+    part = found.chosen(np.flatnonzero(ends))
+    steps = np.where(part.ink_first, -1, 1)
+    # The pixel of the rim is the first of the two or the second.
+    row = part.row + np.where(part.upright & ~part.ink_first, 1, 0)
+    column = part.column + np.where(part.upright | part.ink_first, 0, 1)
+    inside = field.coverage(
+        row + np.where(part.upright, steps, 0), column + np.where(part.upright, 0, steps)
+    )
+    ends[ends] = inside - field.coverage(row, column) > EVEN + EVEN_NOISE * field.noise
+    return ends
 
 
 def drawn_shares(field: Field, found: Crossings, shares: FloatArray) -> Edges:
@@ -77,19 +102,22 @@ def drawn_shares(field: Field, found: Crossings, shares: FloatArray) -> Edges:
     even = EVEN + EVEN_NOISE * field.noise
     for chunk in np.array_split(np.arange(len(shares)), len(shares) // 100_000 + 1):
         part = found.chosen(chunk)
-        profiles = profiles_across(field, part)
+        at_rim = part.at_rim(*field.shape)
+        profiles = _with_ground_outside(profiles_across(field, part), field, part, even)
         place = places_across(profiles, even)
+        # What is no plain edge at the rim is cut off there.
+        place[at_rim] = places_across(profiles[at_rim], even, pure=True)
         # A place counts pixels from the far end of the ground; half-way between the two centres
         # it is the REACH.
         ahead = np.where(part.ink_first, REACH - place, place - REACH) + 0.5
         moved = np.abs(ahead - shares[chunk])
         # No place at all is NaN, and no nearer than that.
-        known[chunk] = (moved <= FARTHEST) & ~part.at_rim(*field.shape)
+        known[chunk] = (moved <= FARTHEST) & (~at_rim | ends_at_rim(field, part))
         out[chunk] = np.where(known[chunk], ahead, shares[chunk])
     return Edges(out, known)
 
 
-def places_across(profiles: FloatArray, even: float) -> FloatArray:
+def places_across(profiles: FloatArray, even: float, *, pure: bool = False) -> FloatArray:
     """Where edges lie, in pixels from the far end of the ground; NaN where the grey fits none.
 
     Parameters
@@ -98,12 +126,14 @@ def places_across(profiles: FloatArray, even: float) -> FloatArray:
         Parts of pixels that are ink, from ground to ink, the edge in the middle.
     even : float
         Neighbours that differ by no more are alike.
+    pure : bool
+        Whether only edges between bare ground and full ink count, and strokes.
     """
     place = _edge(profiles, even, pure=True)
     for other in (
         _stroke(profiles, even),
         2 * REACH - _stroke(1.0 - profiles[:, ::-1], even),
-        _edge(profiles, even, pure=False),
+        *(() if pure else (_edge(profiles, even, pure=False),)),
     ):
         place = np.where(np.isnan(place), other, place)
     return place
@@ -129,6 +159,26 @@ def profiles_across(field: Field, found: Crossings) -> FloatArray:
     profiles = field.coverage(row, column)
     profiles[found.ink_first] = profiles[found.ink_first, ::-1]
     return profiles
+
+
+def _with_ground_outside(
+    profiles: FloatArray, field: Field, found: Crossings, even: float
+) -> FloatArray:
+    """Profiles that end in an edge at the rim, with bare ground outside the picture.
+
+    What the rim shows goes on there, but grey that an edge puts into its pixels does not (TRC-23).
+    """
+    height, width = field.shape
+    first = np.where(found.upright, found.row, found.column)
+    size = np.where(found.upright, height, width)
+    # Pixels of the picture on the side of the ground; the one at the rim has this place.
+    rim = REACH - np.where(found.ink_first, size - 1 - first, first + 1)
+    at_edge = (rim >= REACH - RIM_REACH) & (rim < REACH)
+    lines, places = np.arange(len(profiles)), np.clip(rim, 0, REACH - 1)
+    at_edge &= profiles[lines, places + 1] - profiles[lines, places] > even
+    at_edge |= rim == REACH  # nothing on that side
+    outside = at_edge[:, None] & (np.arange(2 * REACH) < rim[:, None])
+    return np.where(outside, 0.0, profiles)
 
 
 def _edge(profiles: FloatArray, even: float, *, pure: bool) -> FloatArray:

@@ -60,7 +60,8 @@ def drawn_lines(
     else:
         edges = drawn_shares(field, part, shares)
     places_drawn = part.places(height, edges.shares)
-    at_rim = part.at_rim(height, width)
+    # What ends at the rim is an edge like others, what is cut off there ends with it.
+    at_rim = part.at_rim(height, width) & ~edges.known
     midway = np.abs(shares - 0.5) < 1e-9
     # Edges that blur or noise alone leave on the level line have corners, too (TRC-20).
     on_level_too = soft.shows_corners(field.noise)
@@ -93,6 +94,7 @@ def drawn_lines(
         cornered.append(not one_bit and (known or on_level_too))
     say(f"looking for the corners of {len(outlines)} outlines")
     outlines = sharpened(outlines, level_lines, cornered, field, soft, inks)
+    outlines = [np.clip(points, 0, (width, height)) for points in outlines]
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
 
 

@@ -4,9 +4,9 @@ The picture is reduced to one value per pixel and cut at one level. The level li
 edges; where the grey across an edge is that of a drawing, the outline is put where it was drawn
 (:mod:`shapespline.tracing.edges`), corners included (:mod:`shapespline.tracing.corners`).
 Everything automatic here looks at the whole picture once: the level is Otsu's, the background is
-what most of the rim is. That is right for drawings, scans, glyphs and objects on an even ground; it
-is no segmentation of busy photographs, where a picture with the object cut out (transparent ground)
-serves better.
+what most of the rim is, or the light corners beside a figure that fills the picture. That is right
+for drawings, scans, glyphs and objects on an even ground; it is no segmentation of busy
+photographs, where a picture with the object cut out (transparent ground) serves better.
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, cast
 
 import numpy as np
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from shapespline.typing import ArrayLike, FloatArray
+    from shapespline.typing import ArrayLike, FloatArray, IntArray
 
     # What is made of pixels, whichever they are.
     Work: TypeAlias = Callable[[NDArray[Any]], NDArray[Any]]
@@ -30,6 +31,11 @@ STRONG = 0.6
 # Width of the rim that shows the background, as a part of the shorter side: wider than the thin
 # frames that programs draw around pictures.
 RIM = 0.02
+# Corners show the ground if they differ by no more than the first part of the full scale, and are
+# lighter than most of the rim by the second; where fewer than four are, no more than the third part
+# of the rim is dark. A frame leaves less than the last part of the outermost pixels as dark
+# (TRC-24).
+ALIKE, LIGHTER, LITTLE_MORE, FRAMED = 0.1, 0.25, 2 / 3, 0.2
 # A picture is coloured if this part of its pixels spreads this far over its channels: more than
 # JPEG leaves of a grey scan.
 COLOURED_PIXELS = 0.001
@@ -39,10 +45,11 @@ ONE_COLOUR = 0.02
 
 
 class PixelValues(NamedTuple):
-    """One value per pixel, and whether it is the distance from the ground."""
+    """One value per pixel, whether it is the distance from the ground, or how opaque it is."""
 
     values: Layer
-    is_difference: bool
+    is_difference: bool = False
+    is_alpha: bool = False
 
 
 def validated_pixels(image: ArrayLike) -> NDArray[Any]:
@@ -167,17 +174,17 @@ def pixel_values(pixels: NDArray[Any], channel: Channel, *, lightness: bool) -> 
         raise InvalidInputError("channel 'alpha' needs a picture with transparency; leave it out")
     free = channel == "auto" and not lightness
     if channel == "alpha" or (free and transparent and _is_one_colour(pixels)):
-        return PixelValues(Layer(pixels, lambda part: part[..., -1]), is_difference=False)
+        return PixelValues(Layer(pixels, lambda part: part[..., -1]), is_alpha=True)
     laid = _laid(pixels)
     is_grey = pixels.ndim == 2 or pixels.shape[2] == 2
     if channel in ("red", "green", "blue"):
         if is_grey:
             raise InvalidInputError(f"channel {channel!r} needs a colour picture; use 'grey'")
         index = ("red", "green", "blue").index(channel)
-        return PixelValues(Layer(pixels, lambda part: laid(part)[..., index]), is_difference=False)
+        return PixelValues(Layer(pixels, lambda part: laid(part)[..., index]))
     if channel == "difference" or (free and not is_grey and _is_coloured(pixels)):
         return PixelValues(_difference(pixels), is_difference=True)
-    return PixelValues(Layer(pixels, laid) if is_grey else _grey(pixels), is_difference=False)
+    return PixelValues(Layer(pixels, laid) if is_grey else _grey(pixels))
 
 
 def full_scale(pixels: NDArray[Any]) -> float:
@@ -279,13 +286,13 @@ def _grey(pixels: NDArray[Any]) -> Layer:
 
 
 def _difference(pixels: NDArray[Any]) -> Layer:
-    """Root mean square difference from the rim's median colour, in the unit of the image.
+    """Root mean square difference from the colour of the ground, in the unit of the image.
 
     A norm of the difference keeps sub-pixel positions: where object and ground mix linearly, it
     is linear in the mixture.
     """
     layers_of = _layers_of(pixels)
-    ground = [float(np.median(layer)) for layer in layers_of(rim(pixels))]
+    ground = [float(np.median(layer)) for layer in layers_of(shows_ground(pixels)(pixels))]
 
     if pixels.dtype == np.uint8:  # squares are looked up: half the time
         tables = [(np.arange(256.0) - one) ** 2 for one in ground]
@@ -303,10 +310,46 @@ def _difference(pixels: NDArray[Any]) -> Layer:
     return Layer(pixels, difference)
 
 
-def rim(values: NDArray[Any] | Layer) -> NDArray[Any]:
+def shows_ground(pixels: NDArray[Any]) -> Callable[[NDArray[Any] | Layer], NDArray[Any]]:
+    """What takes the pixels of a picture's values that show the ground: its rim, or its corners.
+
+    The corners do around a figure with round corners that fills the picture: they are clear, or
+    alike and lighter than most of the rim, as paper is, and the picture has no frame. Some of them
+    do so beside a figure that fills little more than half of the rim (TRC-24).
+    """
+    four = np.arange(4)
+    if has_alpha(pixels) and (corners(pixels, four)[:, -1] < 0.5 * full_scale(pixels)).all():
+        return partial(corners, which=four)
+    layers_of = _layers_of(pixels)
+
+    def lightness(part: NDArray[Any]) -> FloatArray:
+        return np.mean([np.asarray(layer, dtype=np.float64) for layer in layers_of(part)], axis=0)
+
+    at_rim, at_corners = lightness(rim(pixels)), lightness(corners(pixels, four))
+    lightest = at_corners.max()
+    full = max(full_scale(pixels), lightest - at_rim.min())  # floats may have any range
+    light = np.flatnonzero(at_corners >= lightest - ALIKE * full)
+    darker = lightest - LIGHTER * full
+    if np.median(at_rim) > darker:
+        return rim
+    if len(light) < 4 and (at_rim <= darker).mean() > LITTLE_MORE:
+        return rim
+    if (lightness(rim(pixels, 1)) <= darker).mean() <= FRAMED:
+        return rim
+    return partial(corners, which=light)
+
+
+def corners(values: NDArray[Any] | Layer, which: IntArray) -> NDArray[Any]:
+    """Pixels in some corners of a picture, of upper left, upper right, lower left, lower right."""
+    height, width = values.shape[:2]
+    return values[which // 2 * (height - 1), which % 2 * (width - 1)]
+
+
+def rim(values: NDArray[Any] | Layer, wide: int | None = None) -> NDArray[Any]:
     """Pixels of the picture's rim, one after the other."""
     height, width = values.shape[:2]
-    wide = max(1, round(RIM * min(height, width)))
+    if wide is None:
+        wide = max(1, round(RIM * min(height, width)))
     if 2 * wide >= min(height, width):
         sides = [values[:]]
     else:

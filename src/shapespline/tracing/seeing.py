@@ -35,7 +35,7 @@ from shapespline.tracing.pixels import (
     full_scale,
     has_alpha,
     pixel_values,
-    rim,
+    shows_ground,
     validated_pixels,
 )
 from shapespline.validation import is_number
@@ -170,10 +170,13 @@ class Seeing:
             values, light, is_difference = colour_distance(pixels, self.color), False, True
         else:
             lightness = self.level is not None or self.polarity != "auto"
-            values, is_difference = pixel_values(pixels, self.channel, lightness=lightness)
+            values, is_difference, is_alpha = pixel_values(
+                pixels, self.channel, lightness=lightness
+            )
             if self.polarity == "auto":
                 cut = picture_level(values, self.level).cut
-                light = is_difference or float(np.median(rim(values))) < cut
+                ground = shows_ground(pixels)(values)
+                light = is_difference or is_alpha or float(np.median(ground)) < cut
             else:
                 light = self.polarity == "light"
         if self.blur:
