@@ -65,6 +65,12 @@ def printed(outlines: Sequence[Outline], size: int) -> Picture:
     return np.rint(picture).astype(np.uint8)
 
 
+def tinted(outlines: Sequence[Outline], size: int) -> Picture:
+    """In one ink on tinted paper, shape (size, size, 3)."""
+    ink, paper = coverage(outlines, size)[..., None], np.array(PAPER)
+    return np.rint(paper + ink * (np.array(INKS[0]) - paper)).astype(np.uint8)
+
+
 def photographed(outlines: Sequence[Outline], size: int) -> Picture:
     """Such a print: out of focus by a pixel, darker towards its corners, grain, JPEG."""
     picture = gaussian_filter(printed(outlines, size).astype(float), (1.0, 1.0, 0.0))
@@ -196,6 +202,7 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     f"{CUT}, scanned, JPEG 90": lambda outlines, size: jpeg(
         scanned(outlines, size, blur=1.0, grain=8.0)
     ),
+    f"{CUT}, tinted": tinted,
     "printed": printed,
     "photographed": photographed,
 }

@@ -79,7 +79,8 @@ def measured(
     if tracer in PEERS:
         traced = PEERS[tracer](image)
     elif tracer == IN_COLOURS:
-        traced, found.seconds = ours(image, tolerance, "drawn", colors=3)
+        n_colors = 2 if renderer.startswith(CUT) else 3  # paper, ink, that of the disc beside
+        traced, found.seconds = ours(image, tolerance, "drawn", colors=n_colors)
     else:
         traced, found.seconds = ours(image, tolerance, tracer)
     found.add(name, outlines, traced)
@@ -147,7 +148,7 @@ def pictures_tables() -> Tables:
     rows = [(one, names_of(*both), None, "drawn", one) for one in RENDERERS]
     rows += [
         (f"{one}, in colours", names_of(*both), None, IN_COLOURS, one)
-        for one in ("printed", "photographed")
+        for one in (f"{CUT}, tinted", "printed", "photographed")
     ]
     tables.add(f"Plates and icons, {SIZE} pixels, drawn, renderers", rows, SIZE)
     for size in SIZES:

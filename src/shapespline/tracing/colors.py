@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 # Square pixels of the smallest area of a picture without noise, and with it: so many for each part
 # of the contrast that the noise is, and no more than so many.
 LEAST_AREA, LEAST_NOISE_AREA, LARGEST_LEAST = 1.0, 1000.0, 200.0
+# Pixels of a margin (TRC-23).
+MARGIN = 2
 # The contrast of the faintest edge, of 255 in a channel: what changes less may be noise.
 FAINT = 60.0
 
@@ -79,13 +81,45 @@ def color_areas(
             stacklevel=caller_level(),
         )
     say(f"following the borders of {len(palette.colors)} colours")
+    size = palette.labels.shape
+    pixels, palette, margin = _with_margin(pixels, palette)
     borders = borders_of(palette.labels)
     seen = softened(Seen(pixels, palette, noise), borders.nodes)
     places = node_places(seen, borders)
     arcs, rings = rings_of(borders, places.level)
     say(f"looking for the corners of {len(arcs)} borders")
     lines = drawn_borders(seen, Bordering(borders, arcs, rings, places))
-    return _shape(rings, arcs, lines, palette)
+    lines = [_within(line, margin, size) for line in lines]
+    return _shape(rings, arcs, lines, palette, ViewBox(0, 0, size[1], size[0]))
+
+
+def _with_margin(
+    pixels: NDArray[np.uint8], palette: Palette
+) -> tuple[NDArray[np.uint8], Palette, int]:
+    """A picture with a margin of the colour that its four corners have, and how wide it is.
+
+    So what ends in a pixel of the rim has a border there (TRC-23); without one colour there is no
+    margin.
+    """
+    labels = palette.labels
+    four = labels[[0, 0, -1, -1], [0, -1, 0, -1]]
+    if (four != four[0]).any():
+        return pixels, palette, 0
+    ground = np.rint(palette.colors[four[0]]).astype(np.uint8)
+    wide = np.empty((labels.shape[0] + 2 * MARGIN, labels.shape[1] + 2 * MARGIN, 3), dtype=np.uint8)
+    wide[:] = ground
+    wide[MARGIN:-MARGIN, MARGIN:-MARGIN] = pixels
+    labels = np.pad(labels, MARGIN, constant_values=four[0])
+    return wide, Palette(palette.colors, labels), MARGIN
+
+
+def _within(line: Line, margin: int, size: tuple[int, ...]) -> Line:
+    """A border in the picture without its margin, which ends at the rim."""
+    height, width = size
+    points, level_line = (
+        np.clip(each - margin, 0, (width, height)) for each in (line.points, line.level_line)
+    )
+    return line._replace(points=points, level_line=level_line)
 
 
 def checked_count(colors: int | str) -> int | str:
@@ -113,10 +147,13 @@ def _eight_bits(pixels: NDArray[Any]) -> NDArray[np.uint8]:
 
 
 def _shape(
-    rings: Sequence[Ring], arcs: Sequence[Arc], lines: Sequence[Line], palette: Palette
+    rings: Sequence[Ring],
+    arcs: Sequence[Arc],
+    lines: Sequence[Line],
+    palette: Palette,
+    frame: ViewBox,
 ) -> Shape:
     """Areas by size, each with the holes in it after it."""
-    height, width = palette.labels.shape
     outlines = [ring.outline([line.points for line in lines], arcs) for ring in rings]
     areas = np.array([signed_area(points) for points in outlines])
     labels = np.array([ring.label for ring in rings])
@@ -141,7 +178,7 @@ def _shape(
             )
             parents.append(-1 if ring == index else around)
             colors.append(color if ring == index else None)
-    return Shape(contours, parents, ViewBox(0, 0, width, height), PIXEL, colors=colors)
+    return Shape(contours, parents, frame, PIXEL, colors=colors)
 
 
 def _owners(labels: IntArray, outlines: Sequence[FloatArray], areas: FloatArray) -> IntArray:
