@@ -3,7 +3,12 @@
 from shapespline.analysis.corners import LEAST_TURN, LOW_TURN, find_corners
 from shapespline.analysis.cpda import Cpda, bending, check_window, chord_to_point, local_maxima
 from shapespline.analysis.mirror import Mirror, find_mirror
-from shapespline.analysis.noise import bends_evenly, largest_bulge, noise_level
+from shapespline.analysis.noise import (
+    bends_evenly,
+    bends_evenly_but_in_corners,
+    largest_bulge,
+    noise_level,
+)
 from shapespline.analysis.normalization import (
     FEW_LEFT,
     LONGEST_CHORD,
@@ -58,6 +63,7 @@ __all__ = [
     "averages",
     "bending",
     "bends_evenly",
+    "bends_evenly_but_in_corners",
     "best_width",
     "canonical_reading",
     "check_window",

@@ -112,6 +112,27 @@ def bends_evenly(points: FloatArray) -> bool:
     """
     if len(points) < FEWEST_TO_PREDICT:
         return False
-    a, b, c, d, e = (points[k : len(points) - 4 + k] for k in range(5))
-    chord, cubic = b - 2 * c + d, (a - 4 * b + 6 * c - 4 * d + e) / 3
+    cubic, chord = _left(points)
     return float((cubic**2).sum()) < EVEN_PART**2 * float((chord**2).sum())
+
+
+def bends_evenly_but_in_corners(points: FloatArray) -> bool:
+    """The same of most points: told by medians, whatever a few corners between them leave.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, np.pi, 20)
+    >>> half_disc = np.column_stack([[1.0, *np.cos(t), -1.0], [-1.0, *np.sin(t), -1.0]])
+    >>> bends_evenly(half_disc), bends_evenly_but_in_corners(half_disc)
+    (False, True)
+    """
+    if len(points) < FEWEST_TO_PREDICT:
+        return False
+    cubic, chord = (median((left**2).sum(axis=1)) for left in _left(points))
+    return cubic < EVEN_PART**2 * chord
+
+
+def _left(points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """What cubics and chords leave of each point but two at both ends, shape (n - 4, 2)."""
+    a, b, c, d, e = (points[k : len(points) - 4 + k] for k in range(5))
+    return (a - 4 * b + 6 * c - 4 * d + e) / 3, b - 2 * c + d

@@ -9,6 +9,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
+from shapespline.analysis import bends_evenly_but_in_corners
 from shapespline.engines.pieces import (
     TOLERANCE_FACTORS,
     chords_found,
@@ -54,6 +55,9 @@ if TYPE_CHECKING:
     from shapespline.fitting.verify import Verified
     from shapespline.monitor import Monitor
 
+# Where a polyline found in one pass takes more than this part of so many points and more, and these
+# do not bend evenly between corners, no pieces have fewer points than lines (FIT-40).
+NO_CURVE_PART, NO_CURVE_POINTS = 0.5, 100
 # Lines are looked at beyond this part of the vertices of a polyline found in one pass, which has
 # more of them than it needs (PIE-20).
 CHORDS_PART = 0.7
@@ -145,6 +149,11 @@ def plan_pieces(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[St
     request, rough = problem.request, ROUGH_PART * len(problem.contour)
     # Where the caller knows the corners lines would make others.
     may_be_lines = not request.style.names_corners
+    if may_be_lines and request.is_plain and _follows_no_curve(problem):
+        yield Lines(needed=True, fewer_than=inf)
+        lines = shortlist.among(LINES)
+        if lines is not None and lines.kept:
+            return
     yield Pieces(TOLERANCE_FACTORS[:1])
     found = shortlist.among(PIECES)
     if found is None or not found.meets(request):
@@ -173,6 +182,16 @@ def plan_pieces(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[St
     if problem.request.insists_on_tangents and shortlist.missing_tangents:
         yield ThroughAll()
         yield TurnedEnds(shortlist.missing_tangents)
+
+
+def _follows_no_curve(problem: Problem) -> bool:
+    """Whether points are so rough for the tolerance that lines alone may follow them."""
+    contour = problem.contour
+    if len(contour) < NO_CURVE_POINTS:
+        return False
+    n_chords = chords_found(problem.thinned).n_points
+    rough = n_chords > NO_CURVE_PART * len(contour)
+    return rough and not bends_evenly_but_in_corners(contour.points)
 
 
 def _one_spline_may_be_better(problem: Problem, in_pieces: Verified) -> bool:

@@ -29,6 +29,7 @@ from shapespline.engines.drawn.judgement import (
     repeated,
     without_few,
 )
+from shapespline.engines.drawn.merging import merged_arcs
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
@@ -351,7 +352,7 @@ def _drawn(model: Model, found: list[Regularity], tolerance: float, told: bool) 
         for one in found
         if one.name != "equal-length" or cut.isdisjoint(one.pieces)
     )
-    return Drawn(tuple(parts), kept, told, model.n_free)
+    return merged_arcs(Drawn(tuple(parts), kept, told, model.n_free), closed=model.seen.closed)
 
 
 def _element(model: Model, k: int, begin: FloatArray, end: FloatArray) -> DrawnLine | DrawnArc:
