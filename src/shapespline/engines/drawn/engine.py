@@ -45,6 +45,7 @@ from shapespline.engines.drawn.segments import (
     segmented,
     supported,
 )
+from shapespline.geometry import signed_area
 from shapespline.values import Arc, Regularity
 
 if TYPE_CHECKING:
@@ -306,9 +307,7 @@ def _whole_circle(seen: Observed) -> DrawnArc | None:
     mean, largest = float(np.sqrt((off**2).mean())), float(np.abs(off).max())
     if mean > most * seen.largest_deviation or largest > LARGEST * seen.largest_deviation:
         return None
-    x, y = points.T
-    area = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
-    arc = Arc((cx, cy), r, 0.0, 2 * np.pi if area > 0 else -2 * np.pi)
+    arc = Arc((cx, cy), r, 0.0, float(np.copysign(2 * np.pi, signed_area(points))))
     begin = np.array([cx + r, cy])
     return DrawnArc(arc, begin, begin)
 
