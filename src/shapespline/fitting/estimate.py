@@ -19,7 +19,6 @@ from shapespline.analysis import (
     LEAST_TURN,
     NOISE_BAND,
     NormalizedContour,
-    means_of,
     neighbours_to_average,
     resolution,
 )
@@ -27,13 +26,18 @@ from shapespline.engines.least_squares import (
     FINAL_LIMITS,
     PENALTY,
     STRAY_WEIGHT,
+    averaged,
     minimized,
     named_solver,
+    noise_of,
+    sizes_tried,
     smooth_start,
+    start_of,
 )
 from shapespline.engines.pieces import PIECE_DEGREE, fit_observed, pinned_exactly
 from shapespline.errors import DegenerateContourError
 from shapespline.fitting.goals import Estimate, Within
+from shapespline.fitting.means import Means
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.runs import KeptCorners, Runs
 from shapespline.fitting.settings import DEFAULT_METHOD
@@ -44,11 +48,11 @@ from shapespline.values import CORNER_TURN, Contour
 
 if TYPE_CHECKING:
     from shapespline.analysis import Resolution
-    from shapespline.engines.least_squares import Balanced, Minimized
+    from shapespline.engines.least_squares import Balanced, Minimized, Smoothed
     from shapespline.fitting.strategies import Ask, Proposals
     from shapespline.monitor import Monitor
     from shapespline.typing import FloatArray
-    from shapespline.values import BSplineCurve, Piece
+    from shapespline.values import Piece
 
 # A smoothed outline is followed within one of these numbers of its standard errors (FIT-01).
 STANDARD_ERRORS = (1.5, 2.0, 3.0)
@@ -61,8 +65,6 @@ DRAWN_DEARER = 10.0
 # If a point is farther than so many bands away, the estimate has missed something: a jump, a spike,
 # a track too sparse to be smoothed (FIT-06).
 FARTHEST = 1.5
-# An open outline of means begins half a step before the first, as the next so many lead (FIT-23).
-ENDS = 4
 
 
 class Evidence(NamedTuple):
@@ -117,37 +119,6 @@ def _turns(pieces: tuple[Piece, ...], *, closed: bool) -> list[float]:
     return [turn_between(before, after) for before, after in pairwise(around)]
 
 
-class Means(NamedTuple):
-    """Means of so many neighbours each, and their standard deviation across.
-
-    Points that scatter by more than their steps are nearest to a curve anywhere: one that winds
-    through them seems to fit better, and one through their middle is drawn in where it bends.
-    """
-
-    contour: Contour
-    noise: float
-
-    @classmethod
-    def of(cls, contour: Contour, noise: float, width: int, ends: bool) -> Means:
-        """Of a contour; its own ends, if they are kept, else where the means lead to."""
-        if width == 1:
-            return cls(contour, noise)
-        points = contour.points
-        means = means_of(points, width)
-        if not contour.closed:
-            first, last = points[0], points[-1]
-            if not ends:
-                first = means[0] + (means[0] - means[ENDS]) / (2 * ENDS)
-                last = means[-1] + (means[-1] - means[-1 - ENDS]) / (2 * ENDS)
-            means = np.concatenate([first[None], means, last[None]])
-        return cls(Contour.silently(means, contour.closed), noise / width**0.5)
-
-    def misfit(self, curve: BSplineCurve) -> float:
-        """Chi squared of a curve."""
-        far = two_sided_distance(curve, self.contour).rms_distance
-        return len(self.contour) * (far / self.noise) ** 2
-
-
 class Estimation:
     """What the points of a problem tell of the curve behind them, found once.
 
@@ -179,11 +150,38 @@ class Estimation:
         return Means.of(contour, noise, self.width, self._ends)
 
     @cached_property
+    def _noise(self) -> float:
+        """That sizes are compared by."""
+        contour, noise = self.means
+        return noise_of(contour, noise if self.width > 1 else None)
+
+    @cached_property
+    def _tried(self) -> list[Smoothed]:
+        """Splines over all points, of several sizes."""
+        contour = self.means.contour
+        return sizes_tried(contour, self._degree, self._noise, monitor=self._monitor)
+
+    @cached_property
     def start(self) -> Balanced:
         """One spline over all points, of the size that the criterion chooses."""
-        contour, noise = self.means
-        known = noise if self.width > 1 else None
-        return smooth_start(contour, self._degree, noise=known, monitor=self._monitor)
+        cheapest = min(self._tried, key=lambda one: one.cost)
+        return start_of(cheapest, self.means.contour, self._degree)
+
+    def told(self) -> tuple[Contour, Balanced]:
+        """What one spline tells, and where its least squares start.
+
+        The mean of what several sizes tell (FIT-33); the points, where one size alone counts.
+        """
+        contour = self.means.contour
+        mean = averaged(self._tried, contour, self._degree, self._noise, monitor=self._monitor)
+        if mean is None:
+            return contour, self.start
+        outline, start = mean
+        if self._ends and not contour.closed:
+            points = outline.points.copy()
+            points[[0, -1]] = contour.points[[0, -1]]
+            outline = Contour.silently(points, closed=False)
+        return outline, start
 
     @cached_property
     def smooth(self) -> Evidence:
@@ -304,8 +302,7 @@ class SmoothedSpline:
         if not self.estimation.explains(self.estimation.smooth):
             return
         ordered, normalized = self.estimation.ordered, self.estimation.normalized
-        told = self.estimation.means.contour
-        found = _finished(problem, told, self.estimation.start, None, monitor)
+        found = _finished(problem, *self.estimation.told(), None, monitor)
         spline, candidate = found.spline, _candidate(problem, found)
         distances = two_sided_distance(spline, ordered)
         parameters = distances.parameters[normalized.new_index]

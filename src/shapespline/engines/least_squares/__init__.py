@@ -1,5 +1,6 @@
 """The least-squares engine: control points and location parameters together."""
 
+from shapespline.engines.least_squares.averaging import averaged
 from shapespline.engines.least_squares.measurement import (
     Measurement,
     check_freedom,
@@ -19,9 +20,12 @@ from shapespline.engines.least_squares.smoothing import (
     FINAL_LIMITS,
     PENALTY,
     Smoothed,
+    noise_of,
+    sizes_tried,
     smooth_start,
     smoothed,
     smoothed_to,
+    start_of,
     straight_line,
 )
 from shapespline.engines.least_squares.solve import (
@@ -73,6 +77,7 @@ __all__ = [
     "RunSettings",
     "Smoothed",
     "Start",
+    "averaged",
     "balanced_start",
     "bend_gain",
     "check_freedom",
@@ -85,16 +90,19 @@ __all__ = [
     "measured",
     "minimized",
     "named_solver",
+    "noise_of",
     "own_number",
     "path_of",
     "placed_curve",
     "quasi_interpolating",
     "run_data",
     "settings_of",
+    "sizes_tried",
     "smooth_start",
     "smoothed",
     "smoothed_to",
     "standardized",
+    "start_of",
     "start_of_some",
     "straight_line",
     "summed_weights",

@@ -82,32 +82,47 @@ def smoothed(
     C_p with a dearer parameter), coarsely first, then finely. A loss takes the place of the square.
     The monitor may end the search; the best size so far is taken.
     """
+    tried = sizes_tried(contour, degree, noise, weights, loss, monitor=monitor)
+    return min(tried, key=lambda one: one.cost)
+
+
+def sizes_tried(
+    contour: Contour,
+    degree: int,
+    noise: float,
+    weights: FloatArray | None = None,
+    loss: Loss | None = None,
+    *,
+    monitor: Monitor,
+) -> list[Smoothed]:
+    """All fits that the search for the cheapest size made; of very many points that one alone."""
     if len(contour) > SEARCH_POINTS and weights is None:
         stride = -(-len(contour) // SEARCH_POINTS)
         thinned = Contour.silently(contour.points[::stride], contour.closed)
         size = smoothed(thinned, degree, noise, None, loss, monitor=monitor).n_control_points
         if size <= degree:
-            return straight_line(contour, noise)
-        return smoothed_to(size, contour, degree, noise, None, loss, monitor=monitor)
-    best = Smoothed(contour.points, np.inf, len(contour), None)
+            return [straight_line(contour, noise)]
+        return [smoothed_to(size, contour, degree, noise, None, loss, monitor=monitor)]
+    tried: list[Smoothed] = []
     if not contour.closed and weights is None and loss is None:
-        best = straight_line(contour, noise)
+        tried.append(straight_line(contour, noise))
+    least = tried[0].cost if tried else np.inf
     most = max(degree + 1, int(LARGEST_PART * len(contour)))
     size, misses = degree + 1, 0
     while size <= most and (size <= AT_LEAST or misses < PATIENCE):
         found = smoothed_to(size, contour, degree, noise, weights, loss, monitor=monitor)
-        best, misses = (found, 0) if found.cost < best.cost else (best, misses + 1)
+        tried.append(found)
+        least, misses = (found.cost, 0) if found.cost < least else (least, misses + 1)
         size = max(size + 1, round(SIZE_FACTOR * size))
         if monitor.ends(size):
-            return best
-    middle = best.n_control_points
+            return tried
+    middle = min(tried, key=lambda one: one.cost).n_control_points
     for size in range(round(middle / SIZE_FACTOR) + 1, round(middle * SIZE_FACTOR)):
         if degree < size <= most and (size - middle) % max(1, round(FINEST * middle)) == 0:
-            found = smoothed_to(size, contour, degree, noise, weights, loss, monitor=monitor)
-            best = found if found.cost < best.cost else best
+            tried.append(smoothed_to(size, contour, degree, noise, weights, loss, monitor=monitor))
             if monitor.ends(size):
                 break
-    return best
+    return tried
 
 
 def smoothed_to(
@@ -173,10 +188,20 @@ def smooth_start(
 
     ``noise`` is the error of a point of weight one, found from the points if it is not known.
     """
-    if noise is None:
-        shown = resolution(contour)
-        noise = max(shown.noise, shown.band / NOISE_BAND)
-    found = smoothed(contour, degree, noise, weights, loss, monitor=monitor)
+    found = smoothed(contour, degree, noise_of(contour, noise), weights, loss, monitor=monitor)
+    return start_of(found, contour, degree)
+
+
+def noise_of(contour: Contour, known: float | None) -> float:
+    """The error of a point, found from the points if it is not known."""
+    if known is not None:
+        return known
+    shown = resolution(contour)
+    return max(shown.noise, shown.band / NOISE_BAND)
+
+
+def start_of(found: Smoothed, contour: Contour, degree: int) -> Balanced:
+    """The spline that was found, one of fewest control points where that is a line."""
     if found.start is not None:
         return found.start
-    return balanced_start(contour, degree + 1, degree, weights, rounds=0, ends="fitted")
+    return balanced_start(contour, degree + 1, degree, rounds=0, ends="fitted")

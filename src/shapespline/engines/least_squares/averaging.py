@@ -1,0 +1,77 @@
+"""The mean of smooth curves of several sizes, each weighted by what its cost says of it.
+
+Which size is the cheapest is a draw of the noise where few points tell it; the mean of all that are
+nearly as cheap is nearer to the truth than any one of them is on average (Buckland, Burnham and
+Augustin 1997, "Model selection: an integral part of inference").
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.engines.least_squares.smoothing import FINEST
+from shapespline.engines.least_squares.starts.equidistribution import Balanced, balanced_start
+from shapespline.geometry import nearest
+from shapespline.values import Contour
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from shapespline.engines.least_squares.smoothing import Smoothed
+    from shapespline.monitor import Monitor
+    from shapespline.typing import FloatArray
+
+# A size that costs so much more weighs 1 / e; sizes that weigh less than this count for nothing
+# (FIT-33).
+DEARER, LEAST_WEIGHT = 16.0, 1e-3
+# The mean is read at so many places for each control point, and one spline tells it within this
+# part of its standard error, with at most so many times the control points (FIT-33).
+PLACES_EACH, WITHIN, MOST_TIMES = 12, 0.25, 1.6
+
+
+class Averaged(NamedTuple):
+    """Points along the mean curve, and a spline that tells it."""
+
+    outline: Contour
+    start: Balanced
+
+
+def averaged(
+    tried: Sequence[Smoothed], contour: Contour, degree: int, noise: float, *, monitor: Monitor
+) -> Averaged | None:
+    """The mean of the curves that were tried; None where one alone counts.
+
+    Along the cheapest one, of the points of all the others that are nearest to it.
+    """
+    best = min(tried, key=lambda one: one.cost)
+    if best.start is None:
+        return None
+    size = best.n_control_points
+    places = np.linspace(0.0, 1.0, PLACES_EACH * size + 1)
+    along = best.start.spline(places[:-1] if contour.closed else places)
+    total, sum_of_weights, n_counted = np.zeros_like(along), 0.0, 0
+    for one in tried:
+        weight = float(np.exp((best.cost - one.cost) / DEARER))
+        if one.start is None or weight < LEAST_WEIGHT:
+            continue
+        spline = one.start.spline
+        points = along if one is best else spline(nearest(spline, along).parameters)
+        total += weight * points
+        sum_of_weights, n_counted = sum_of_weights + weight, n_counted + 1
+    if n_counted == 1:
+        return None
+    outline = Contour.silently(total / sum_of_weights, contour.closed)
+    error = WITHIN * noise * float(np.sqrt(size / len(contour)))
+    most = max(size, int(MOST_TIMES * size))
+    for count in range(size, most + 1, max(1, round(FINEST * size))):
+        start = balanced_start(outline, count, degree, rounds=0, ends="fitted", ask=monitor.ends)
+        if monitor.ends(count) or _rms(start, outline.points) <= error:
+            break
+    return Averaged(outline, start)
+
+
+def _rms(start: Balanced, points: FloatArray) -> float:
+    """Root mean square distance of points from a curve."""
+    return float(np.sqrt(nearest(start.spline, points).distances_sq.mean()))
