@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,7 +17,7 @@ from shapespline.engines.drawn.ends import (
     sweep_of,
 )
 from shapespline.engines.drawn.fillets import rows_with_fillets
-from shapespline.engines.drawn.joints import direction_at, turn_at
+from shapespline.engines.drawn.joints import direction_at
 from shapespline.engines.drawn.judgement import (
     HOPELESS,
     LARGEST,
@@ -40,11 +39,11 @@ from shapespline.engines.drawn.segments import (
     FREE_PARAMETERS,
     LINE,
     PRICE,
-    SMOOTH,
     Segments,
     segmented,
     supported,
 )
+from shapespline.engines.drawn.sharing import shared_anew
 from shapespline.geometry import signed_area
 from shapespline.values import Arc, Regularity
 
@@ -72,8 +71,6 @@ LEAST_SAVED, SAVED_PART = 6.0, 0.1
 # What such a telling holds in part only gives way to the exact one, unless that is so many times
 # longer, as chords of curves are (DRA-29).
 CHORDS = 1.33
-# Measured points are shared anew so often, and an element keeps so many of them (DRA-25).
-SHARINGS, LEAST_SHARED = 3, 3
 # Data within so many steps of a node tell its direction.
 DIRECTION_STEPS = 4
 
@@ -147,16 +144,19 @@ def _of_row(
         model = Model.of(seen, row, model, ends)
     while (fewer := without_few(model)) is not None and n_few < MOST_WRONG:
         model, n_few = Model.of(seen, fewer, model, ends), n_few + 1
+    estimating = bool(np.isinf(tolerance))
     best = _estimated(model, model.row, tolerance)
-    for filleted in () if seen.pixel else rows_with_fillets(model):
+    if best is not None and estimating:
+        best = _settled(best, tolerance)
+    for filleted in () if seen.pixel else rows_with_fillets(model, estimating=estimating):
         other = _estimated(model, filleted, tolerance)
         if other is not None:
             as_it_is = other.model.row is filleted
+            if estimating:
+                other = _settled(other, tolerance)
             best = other if best is None or (as_it_is and other.cost < best.cost) else best
-    if best is not None and (row := _shared_anew(best.model).row) is not best.model.row:
-        other = _estimated(model, row, tolerance)
-        if other is not None and other.model.row is row and other.cost < best.cost:
-            best = other
+    if best is not None:
+        best = _settled(best, tolerance)
     as_read = best is not None and best.model.row is model.row
     for repeated_row in rows_repeated(seen, model.row if best is None else best.model.row):
         other = _estimated(model, repeated_row, tolerance)
@@ -174,7 +174,7 @@ def _of_row(
     if set(regularities) != set(NAMES):
         model = Model.of(seen, model.row, model, ends)
         found = Search(model, regularities).run()
-    return _drawn(_shared_anew(model), found, tolerance, told)
+    return _drawn(shared_anew(model), found, tolerance, told)
 
 
 class Estimated(NamedTuple):
@@ -210,50 +210,25 @@ def _estimated(model: Model, row: Segments, tolerance: float) -> Estimated | Non
     return None
 
 
+def _settled(best: Estimated, tolerance: float) -> Estimated:
+    """The estimate after points were shared anew, if that costs less.
+
+    Without a tolerance rows are compared as they are after that: one with an arc that has points of
+    its neighbours may seem the cheaper one (DRA-37).
+    """
+    row = shared_anew(best.model).row
+    if row is best.model.row:
+        return best
+    other = _estimated(best.model, row, tolerance)
+    if other is None or other.model.row is not row or other.cost >= best.cost:
+        return best
+    return other
+
+
 def _is_preferred(alike: Estimated, best: Estimated) -> bool:
     """Whether parts that are read alike need fewer free-form runs, or are told for less."""
     more = free_runs(alike.model.row) - free_runs(best.model.row)
     return more < 0 or alike.cost + PRICE * FREE_PARAMETERS * more <= best.cost
-
-
-def _shared_anew(model: Model) -> Model:
-    """The estimate of measured points that belong to the elements between whose nodes they lie.
-
-    Segments are found without joints, so some points beside a tangent one are on its wrong side.
-    """
-    for _ in range(0 if model.seen.pixel else SHARINGS):
-        row = _between_nodes(model)
-        if row is model.row or min(j - i for i, j, _ in row.found) < LEAST_SHARED:
-            break
-        again = replace(model, row=row, x=model.x.copy())
-        again.solve()
-        if not again.chi_sq < model.chi_sq:
-            break
-        model = again
-    return model
-
-
-def _between_nodes(model: Model) -> Segments:
-    """The row whose segments end in the points nearest to the nodes of tangent elements."""
-    row, n, closed = model.row, len(model.row.found), model.seen.closed
-    last = len(row.points) - 1
-    begins = [segment.begin for segment in row.found]
-    for k, node in nodes_of(model).items():
-        m = (k + 1) % n
-        if k not in model.at or m not in model.at or k == m or (m == 0 and not closed):
-            continue
-        if turn_at(model, k, m, node) > SMOOTH:
-            continue
-        at, before, after = row.found[k].end, row.found[k], row.found[m]
-        near = np.arange(at - (at - before.begin) // 2, at + (after.end - after.begin) // 2 + 1)
-        points = row.points[near % last if closed else near]
-        begins[m] = int(near[np.argmin(np.hypot(*(points - node).T))])
-    if begins == [segment.begin for segment in row.found]:
-        return row
-    if closed:
-        return row.cut_at([begin % last for begin in begins])
-    parts = zip(begins, [*begins[1:], last], row.found, strict=True)
-    return row._replace(found=tuple(s._replace(begin=i, end=j) for i, j, s in parts))
 
 
 def _rough(seen: Observed, tolerance: float) -> Observed | None:

@@ -29,8 +29,9 @@ LARGEST_TURN, MOST = 2.4, 3
 # half an edge that they take where there is a bare corner; then these parts of it (DRA-24).
 RADII, CUTS = np.geomspace(0.5, 2.0, 17), np.geomspace(0.05, 1.0, 17)
 FINER = np.linspace(0.85, 1.15, 13)
-# Points that an edge keeps, and that an arc has (DRA-24).
-FEWEST = 5
+# Points that an edge keeps, and that an arc has (DRA-24); without a tolerance, where arcs that were
+# found are tried as fillets, too, which short edges lie between (DRA-37).
+FEWEST, FEWEST_ESTIMATED = 5, 3
 
 
 class Fillet(NamedTuple):
@@ -48,11 +49,15 @@ class Fillet(NamedTuple):
     is_possible: bool
 
 
-def rows_with_fillets(model: Model) -> Iterator[Segments]:
-    """Rows with fillets: where the points tell them, and all alike if that is another one."""
-    best = cache(partial(_fillet, model))
-    told = _with_fillets(model, best, all_alike=False)
-    alike = _with_fillets(model, best, all_alike=True)
+def rows_with_fillets(model: Model, *, estimating: bool) -> Iterator[Segments]:
+    """Rows with fillets: where the points tell them, and all alike if that is another one.
+
+    ``estimating`` without a tolerance.
+    """
+    fewest = FEWEST_ESTIMATED if estimating else FEWEST
+    best = cache(partial(_fillet, model, fewest=fewest, of_arcs=estimating))
+    told = _with_fillets(model, best, fewest, all_alike=False)
+    alike = _with_fillets(model, best, fewest, all_alike=True)
     if told is not None:
         yield told
     if alike is not None and (told is None or alike.found != told.found):
@@ -62,6 +67,7 @@ def rows_with_fillets(model: Model) -> Iterator[Segments]:
 def _with_fillets(
     model: Model,
     best: Callable[[int, tuple[int, ...], int], Fillet | None],
+    fewest: int,
     *,
     all_alike: bool,
 ) -> Segments | None:
@@ -106,14 +112,19 @@ def _with_fillets(
     if closed:
         row = row.cut_at([begin % last for begin in begins])
     # Two fillets may take all of the edge between them.
-    return row if all(j - i >= FEWEST for i, j, _ in row.found) else None
+    return row if all(j - i >= fewest for i, j, _ in row.found) else None
 
 
-def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int) -> Fillet | None:
-    """The best one between two lines, if what lies there turns as it does."""
+def _fillet(
+    model: Model, a: int, inner: tuple[int, ...], b: int, *, fewest: int, of_arcs: bool
+) -> Fillet | None:
+    """The best one between two lines, if what lies there turns as it does.
+
+    ``of_arcs`` instead of an arc, too: one that takes points of its neighbours touches none.
+    """
     if a == b or not all(k in model.at for k in inner):
         return None
-    if [model.kind(k) for k in inner] == [ARC]:
+    if not of_arcs and [model.kind(k) for k in inner] == [ARC]:
         return None
     shorter = min(data_length(model, a), data_length(model, b))
     if any(data_length(model, k) >= shorter for k in inner):
@@ -127,11 +138,11 @@ def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int) -> Fillet | No
     found = row.found
     i = found[a].end
     j = i + sum(found[k].end - found[k].begin for k in inner)
-    first = i - (found[a].end - found[a].begin) + FEWEST
-    index = np.arange(first, j + found[b].end - found[b].begin - FEWEST + 1)
+    first = i - (found[a].end - found[a].begin) + fewest
+    index = np.arange(first, j + found[b].end - found[b].begin - fewest + 1)
     points = row.points[index % last] if model.seen.closed else row.points[index]
     middle = (i + j) // 2 - first
-    if not FEWEST <= middle <= len(points) - FEWEST:
+    if not fewest <= middle <= len(points) - fewest:
         return None
     apex = points[middle - 1 : middle + 2].mean(axis=0)
     corner = meeting(model, a, b, apex)
@@ -159,7 +170,7 @@ def _fillet(model: Model, a: int, inner: tuple[int, ...], b: int) -> Fillet | No
         if not len(outside) or not len(beyond):
             return inf, 0, 0
         p, q = int(outside[-1]), middle + int(beyond[0])
-        if p == 0 or q == len(points) - 1 or q - p < FEWEST:
+        if p == 0 or q == len(points) - 1 or q - p < fewest:
             return inf, 0, 0
         centre = corner + inward * radius / cos(half)
         off = (np.hypot(*(points[p : q + 1] - centre).T) - radius) ** 2
