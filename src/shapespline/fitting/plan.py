@@ -56,7 +56,7 @@ if TYPE_CHECKING:
     from shapespline.monitor import Monitor
 
 # Where a polyline found in one pass takes more than this part of so many points and more, and these
-# do not bend evenly between corners, no pieces have fewer points than lines (FIT-40).
+# do not bend evenly between corners, no pieces have fewer points than lines (FIT-35).
 NO_CURVE_PART, NO_CURVE_POINTS = 0.5, 100
 # Lines are looked at beyond this part of the vertices of a polyline found in one pass, which has
 # more of them than it needs (PIE-20).
