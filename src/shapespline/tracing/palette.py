@@ -36,6 +36,11 @@ EXACT_PART = 0.3
 # Even pixels within so many pixels are nearby. A pixel farther than this from a mixture of two of
 # their colours is a mixture with another.
 NEARBY, MIXED = 2, 20.0
+# Edges of JPEG's colours are looked for between even pixels so far away; of what is no mixture this
+# part is theirs where it is theirs at all; they ring by so much (TRC-25).
+SMEARED, MOST_SMEARED, RINGING = 8, 0.6, 30.0
+# Lightness and two differences of colour, as JFIF has them (ITU-T T.871, section 7).
+TO_YCC = np.array([(0.299, -0.168736, 0.5), (0.587, -0.331264, -0.418688), (0.114, 0.5, -0.081312)])
 # So many pixels, and this part of the picture, that are no mixtures have a colour of their own:
 # that of this part of them, the farthest from the colours around them.
 THIN, THIN_PART, FARTHEST_PART = 6, 1e-5, 0.1
@@ -167,14 +172,47 @@ def _with_thin(
 def _strange(
     pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray
 ) -> tuple[FloatArray, BoolArray]:
-    """Values that no two colours mix to, and which colours are near each."""
+    """Values that no two colours mix to, and which colours are near each.
+
+    Where most of them are seen to be smeared edges, what may be one is.
+    """
     found, near = [np.empty((0, 3))], [np.empty((0, len(colors)), dtype=bool)]
-    for where, nearby in _uneven(even, _even_labels(pixels, even, colors), len(colors)):
+    smeared = [np.empty(0, dtype=bool)]
+    labels, count = _even_labels(pixels, even, colors), len(colors)
+    for (where, nearby), (_, around) in zip(
+        _uneven(even, labels, count), _uneven(even, labels, count, SMEARED), strict=True
+    ):
         values = pixels[where].astype(np.float64)
         is_strange = _unmixed(values, nearby, colors)[1]
         found.append(values[is_strange])
         near.append(nearby[is_strange])
-    return np.concatenate(found), np.concatenate(near)
+        smeared.append(_are_smeared(values[is_strange], around[is_strange], colors))
+    values, nearby, edges = np.concatenate(found), np.concatenate(near), np.concatenate(smeared)
+    if len(edges) and edges.mean() >= MOST_SMEARED:
+        kept = ~_are_smeared(values, np.ones_like(nearby), colors, RINGING)
+        values, nearby = values[kept], nearby[kept]
+    return values, nearby
+
+
+def _are_smeared(
+    values: FloatArray, around: BoolArray, colors: FloatArray, most: float = MIXED
+) -> BoolArray:
+    """Which values lie between two colours around them in lightness, and in colour elsewhere.
+
+    JPEG keeps colours of every other pixel, so those of an edge reach farther than its lightness.
+    """
+    found = np.zeros(len(values), dtype=bool)
+    seen, known = values @ TO_YCC, colors @ TO_YCC
+    for a, b in combinations(range(len(colors)), 2):
+        own = np.flatnonzero(around[:, a] & around[:, b])
+        light, tint = seen[own, 0], seen[own, 1:] - known[a, 1:]
+        low, high = sorted((known[a, 0], known[b, 0]))
+        beyond = np.maximum(np.maximum(low - light, light - high), 0.0)
+        along = known[b, 1:] - known[a, 1:]
+        share = np.clip(tint @ along / max(along @ along, 1.0), 0.0, 1.0)
+        off = np.hypot(*(tint - share[:, None] * along).T)
+        found[own[np.hypot(beyond, off) <= most]] = True
+    return found
 
 
 def _even_labels(
@@ -188,7 +226,7 @@ def _even_labels(
 
 
 def _uneven(
-    even: BoolArray, labels: NDArray[np.int8], count: int
+    even: BoolArray, labels: NDArray[np.int8], count: int, reach: int = NEARBY
 ) -> Iterator[tuple[tuple[IntArray, IntArray], BoolArray]]:
     """Places of pixels that are not even, some at a time.
 
@@ -198,13 +236,13 @@ def _uneven(
         row, column = np.nonzero(~even[rows])
         if len(row) == 0:
             continue
-        above = max(rows.start - NEARBY, 0)
-        seen = slice(above, rows.stop + NEARBY)
+        above = max(rows.start - reach, 0)
+        seen = slice(above, rows.stop + reach)
         # A bit for each colour.
         bits = np.where(even[seen], np.uint64(1) << labels[seen].astype(np.uint64), np.uint64(0))
         for side in (bits, bits.T):
             alone = side.copy()
-            for step in range(1, NEARBY + 1):
+            for step in range(1, reach + 1):
                 side[step:] |= alone[:-step]
                 side[:-step] |= alone[step:]
         near = bits[row + rows.start - above, column]
