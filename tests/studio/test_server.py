@@ -21,6 +21,8 @@ client = pytest.importorskip("starlette.testclient", exc_type=ImportError)
 
 PLACE = "127.0.0.1:8000"
 HERE = {"host": PLACE}
+# Seconds without a message after which a server says nothing any more.
+SILENCE = 60
 
 
 @pytest.fixture
@@ -151,7 +153,7 @@ def _long_reading(socket):
 
 def _long_fit(socket):
     socket.send(packed({"type": "example", "id": "scan", "generation": 1}))
-    while unpacked(socket.recv())[0]["type"] != "shape":
+    while unpacked(socket.recv(SILENCE))[0]["type"] != "shape":
         pass
     # A tenth of the noise: every point costs; the search would take its minute.
     settings = {"tolerance": 0.015, "effort": "smallest"}
@@ -181,7 +183,7 @@ def test_ctrl_c_ends_it_cleanly_and_leaves_nothing_behind(tmp_path, begin):
         place = address.removeprefix("http://").partition("/")[0]
         with connect(address.replace("http", "ws") + "socket", origin=f"http://{place}") as socket:
             begin(socket)
-            while unpacked(socket.recv())[0]["type"] != "progress":
+            while unpacked(socket.recv(SILENCE))[0]["type"] != "progress":
                 pass
             began = time.monotonic()
             server.send_signal(signal.SIGINT)

@@ -149,7 +149,8 @@ def plan_pieces(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[St
     request, rough = problem.request, ROUGH_PART * len(problem.contour)
     # Where the caller knows the corners lines would make others.
     may_be_lines = not request.style.names_corners
-    if may_be_lines and request.is_plain and _follows_no_curve(problem):
+    hurries = request.is_plain and request.effort != "smallest"
+    if may_be_lines and hurries and _follows_no_curve(problem):
         yield Lines(needed=True, fewer_than=inf)
         lines = shortlist.among(LINES)
         if lines is not None and lines.kept:
