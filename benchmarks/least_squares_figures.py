@@ -24,7 +24,7 @@ from benchmarks.figure_style import (
     save,
 )
 from shapespline.analysis import noise_level
-from shapespline.engines.least_squares.smoothing import PENALTY, smoothed, smoothed_to
+from shapespline.engines.least_squares.smoothing import PENALTY, cheapest, sizes_tried, smoothed_to
 from shapespline.monitor import Monitor
 from shapespline.solvers import Limits
 
@@ -80,7 +80,7 @@ def estimation_size() -> None:
     """Noisy points, the criterion over the number of control points, the curve behind them."""
     contour, truth = outline("loop500_n1_open"), outline("loop500_open")
     noise = noise_level(contour)
-    found = smoothed(contour, 3, noise, monitor=Monitor())
+    found = cheapest(sizes_tried(contour, 3, noise, monitor=Monitor()))
     sizes = [*range(4, 24), *range(24, 61, 4)]
     runs = [smoothed_to(size, contour, 3, noise, monitor=Monitor()) for size in sizes]
     price = np.array([PENALTY * size for size in sizes])

@@ -27,6 +27,7 @@ from shapespline.engines.least_squares import (
     PENALTY,
     STRAY_WEIGHT,
     averaged,
+    cheapest,
     minimized,
     named_solver,
     noise_of,
@@ -164,8 +165,7 @@ class Estimation:
     @cached_property
     def start(self) -> Balanced:
         """One spline over all points, of the size that the criterion chooses."""
-        cheapest = min(self._tried, key=lambda one: one.cost)
-        return start_of(cheapest, self.means.contour, self._degree)
+        return start_of(cheapest(self._tried), self.means.contour, self._degree)
 
     def told(self) -> tuple[Contour, Balanced]:
         """What one spline tells, and where its least squares start.

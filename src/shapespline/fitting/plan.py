@@ -149,8 +149,7 @@ def plan_pieces(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[St
     request, rough = problem.request, ROUGH_PART * len(problem.contour)
     # Where the caller knows the corners lines would make others.
     may_be_lines = not request.style.names_corners
-    hurries = request.is_plain and request.effort != "smallest"
-    if may_be_lines and hurries and _follows_no_curve(problem):
+    if may_be_lines and _follows_no_curve(problem):
         yield Lines(needed=True, fewer_than=inf)
         lines = shortlist.among(LINES)
         if lines is not None and lines.kept:
@@ -186,9 +185,12 @@ def plan_pieces(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[St
 
 
 def _follows_no_curve(problem: Problem) -> bool:
-    """Whether points are so rough for the tolerance that lines alone may follow them."""
-    contour = problem.contour
-    if len(contour) < NO_CURVE_POINTS:
+    """Whether points are so rough for the tolerance that lines alone may follow them.
+
+    The smallest effort does not go by that, nor a request that asks for more than a tolerance.
+    """
+    request, contour = problem.request, problem.contour
+    if request.effort == "smallest" or not request.is_plain or len(contour) < NO_CURVE_POINTS:
         return False
     n_chords = chords_found(problem.thinned).n_points
     rough = n_chords > NO_CURVE_PART * len(contour)

@@ -8,7 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis import NOISE_BAND, find_corners
-from shapespline.engines.least_squares import Smoothed, smoothed, smoothed_to, straight_line
+from shapespline.engines.least_squares import (
+    Smoothed,
+    cheapest,
+    sizes_tried,
+    smoothed_to,
+    straight_line,
+)
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
@@ -154,7 +160,7 @@ class Runs:
         if len(run) <= self._degree + 1 or (size is not None and size <= self._degree):
             return straight_line(run, self._noise)
         if size is None:
-            return smoothed(run, self._degree, self._noise, monitor=self._monitor)
+            return cheapest(sizes_tried(run, self._degree, self._noise, monitor=self._monitor))
         return smoothed_to(size, run, self._degree, self._noise, monitor=self._monitor)
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.engines.least_squares.smoothing import FINEST
+from shapespline.engines.least_squares.smoothing import FINEST, cheapest
 from shapespline.engines.least_squares.starts.equidistribution import Balanced, balanced_start
 from shapespline.geometry import nearest
 from shapespline.values import Contour
@@ -45,7 +45,7 @@ def averaged(
 
     Along the cheapest one, of the points of all the others that are nearest to it.
     """
-    best = min(tried, key=lambda one: one.cost)
+    best = cheapest(tried)
     if best.start is None:
         return None
     size = best.n_control_points

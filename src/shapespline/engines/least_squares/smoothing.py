@@ -15,6 +15,8 @@ from shapespline.solvers import Limits
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.monitor import Monitor
     from shapespline.typing import FloatArray, Loss
 
@@ -67,22 +69,8 @@ class Smoothed(NamedTuple):
         return np.array(rows)
 
 
-def smoothed(
-    contour: Contour,
-    degree: int,
-    noise: float,
-    weights: FloatArray | None = None,
-    loss: Loss | None = None,
-    *,
-    monitor: Monitor,
-) -> Smoothed:
-    """The least-squares spline, or line, whose size makes the cost least.
-
-    Minimises ``sum w |C(t) - Q|^2 / noise^2 + 3.5 m`` over the number m of control points (Mallows'
-    C_p with a dearer parameter), coarsely first, then finely. A loss takes the place of the square.
-    The monitor may end the search; the best size so far is taken.
-    """
-    tried = sizes_tried(contour, degree, noise, weights, loss, monitor=monitor)
+def cheapest(tried: Sequence[Smoothed]) -> Smoothed:
+    """Of several sizes the one whose cost is least, the first of equals."""
     return min(tried, key=lambda one: one.cost)
 
 
@@ -95,11 +83,17 @@ def sizes_tried(
     *,
     monitor: Monitor,
 ) -> list[Smoothed]:
-    """All fits that the search for the cheapest size made; of very many points that one alone."""
+    """Least-squares splines, or a line, of the sizes that a search for the cheapest one tries.
+
+    It minimises ``sum w |C(t) - Q|^2 / noise^2 + 3.5 m`` over the number m of control points
+    (Mallows' C_p with a dearer parameter), coarsely first, then finely. A loss takes the place of
+    the square. The monitor may end the search. Of very many points the cheapest alone is returned.
+    """
     if len(contour) > SEARCH_POINTS and weights is None:
         stride = -(-len(contour) // SEARCH_POINTS)
         thinned = Contour.silently(contour.points[::stride], contour.closed)
-        size = smoothed(thinned, degree, noise, None, loss, monitor=monitor).n_control_points
+        some = sizes_tried(thinned, degree, noise, None, loss, monitor=monitor)
+        size = cheapest(some).n_control_points
         if size <= degree:
             return [straight_line(contour, noise)]
         return [smoothed_to(size, contour, degree, noise, None, loss, monitor=monitor)]
@@ -116,7 +110,7 @@ def sizes_tried(
         size = max(size + 1, round(SIZE_FACTOR * size))
         if monitor.ends(size):
             return tried
-    middle = min(tried, key=lambda one: one.cost).n_control_points
+    middle = cheapest(tried).n_control_points
     for size in range(round(middle / SIZE_FACTOR) + 1, round(middle * SIZE_FACTOR)):
         if degree < size <= most and (size - middle) % max(1, round(FINEST * middle)) == 0:
             tried.append(smoothed_to(size, contour, degree, noise, weights, loss, monitor=monitor))
@@ -188,8 +182,9 @@ def smooth_start(
 
     ``noise`` is the error of a point of weight one, found from the points if it is not known.
     """
-    found = smoothed(contour, degree, noise_of(contour, noise), weights, loss, monitor=monitor)
-    return start_of(found, contour, degree)
+    noise = noise_of(contour, noise)
+    tried = sizes_tried(contour, degree, noise, weights, loss, monitor=monitor)
+    return start_of(cheapest(tried), contour, degree)
 
 
 def noise_of(contour: Contour, known: float | None) -> float:

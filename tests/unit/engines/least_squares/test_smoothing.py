@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from shapespline import Contour
-from shapespline.engines.least_squares.smoothing import smoothed, smoothed_to
+from shapespline.engines.least_squares.smoothing import cheapest, sizes_tried, smoothed_to
 from shapespline.monitor import Monitor
 
 
@@ -15,7 +15,8 @@ def test_the_size_grows_with_the_detail():
         r = 10 + np.cos(petals * t)
         points = np.column_stack([r * np.cos(t), r * np.sin(t)])
         points += np.random.default_rng(1).normal(0, 0.05, points.shape)
-        return smoothed(Contour(points, closed=True), 3, 0.05, monitor=Monitor()).n_control_points
+        tried = sizes_tried(Contour(points, closed=True), 3, 0.05, monitor=Monitor())
+        return cheapest(tried).n_control_points
 
     assert size(0) < size(3) < size(12)
 
