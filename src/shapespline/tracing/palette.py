@@ -14,6 +14,7 @@ import numpy as np
 
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.tracing.layer import strips
+from shapespline.tracing.smeared import are_smeared
 from shapespline.tracing.threads import LACKS, is_thread
 
 if TYPE_CHECKING:
@@ -39,8 +40,6 @@ NEARBY, MIXED = 2, 20.0
 # Edges of JPEG's colours are looked for between even pixels so far away; of what is no mixture this
 # part is theirs where it is theirs at all; they ring by so much (TRC-25).
 SMEARED, MOST_SMEARED, RINGING = 8, 0.6, 30.0
-# Lightness and two differences of colour, as JFIF has them (ITU-T T.871, section 7).
-TO_YCC = np.array([(0.299, -0.168736, 0.5), (0.587, -0.331264, -0.418688), (0.114, 0.5, -0.081312)])
 # So many pixels, and this part of the picture, that are no mixtures have a colour of their own:
 # that of this part of them, the farthest from the colours around them.
 THIN, THIN_PART, FARTHEST_PART = 6, 1e-5, 0.1
@@ -186,33 +185,12 @@ def _strange(
         is_strange = _unmixed(values, nearby, colors)[1]
         found.append(values[is_strange])
         near.append(nearby[is_strange])
-        smeared.append(_are_smeared(values[is_strange], around[is_strange], colors))
+        smeared.append(are_smeared(values[is_strange], around[is_strange], colors, MIXED))
     values, nearby, edges = np.concatenate(found), np.concatenate(near), np.concatenate(smeared)
     if len(edges) and edges.mean() >= MOST_SMEARED:
-        kept = ~_are_smeared(values, np.ones_like(nearby), colors, RINGING)
+        kept = ~are_smeared(values, np.ones_like(nearby), colors, RINGING)
         values, nearby = values[kept], nearby[kept]
     return values, nearby
-
-
-def _are_smeared(
-    values: FloatArray, around: BoolArray, colors: FloatArray, most: float = MIXED
-) -> BoolArray:
-    """Which values lie between two colours around them in lightness, and in colour elsewhere.
-
-    JPEG keeps colours of every other pixel, so those of an edge reach farther than its lightness.
-    """
-    found = np.zeros(len(values), dtype=bool)
-    seen, known = values @ TO_YCC, colors @ TO_YCC
-    for a, b in combinations(range(len(colors)), 2):
-        own = np.flatnonzero(around[:, a] & around[:, b])
-        light, tint = seen[own, 0], seen[own, 1:] - known[a, 1:]
-        low, high = sorted((known[a, 0], known[b, 0]))
-        beyond = np.maximum(np.maximum(low - light, light - high), 0.0)
-        along = known[b, 1:] - known[a, 1:]
-        share = np.clip(tint @ along / max(along @ along, 1.0), 0.0, 1.0)
-        off = np.hypot(*(tint - share[:, None] * along).T)
-        found[own[np.hypot(beyond, off) <= most]] = True
-    return found
 
 
 def _even_labels(
