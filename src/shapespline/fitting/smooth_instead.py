@@ -114,7 +114,10 @@ def _angle(u: FloatArray, v: FloatArray) -> float:
 
 
 def _has_hooks(curve: BSplineCurve, problem: Problem) -> bool:
-    """Whether a curve turns back where the data do not."""
-    line = chords_for_hooks(curve, problem.tolerance)
-    data = problem.contour
-    return len(hooks(line, data.polyline, problem.tolerance, closed=data.closed)) > 0
+    """Whether a curve turns back where the data do not.
+
+    Read in canonical direction: where a hook is in a turn depends on it.
+    """
+    way = -1 if problem.normalized.reversed else 1
+    line, data = chords_for_hooks(curve, problem.tolerance)[::way], problem.contour
+    return len(hooks(line, data.polyline[::way], problem.tolerance, closed=data.closed)) > 0
