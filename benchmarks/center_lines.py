@@ -3,7 +3,10 @@
     python -m benchmarks.center_lines              a line for each drawing
     python -m benchmarks.center_lines -o DIR       and what was found, on the pictures
 
-Strokes of digits, capitals and circuits, with round or square ends. Distances in pixels between
+Icons have what pens fill or hide: pointed corners, narrow rings, what is crossed out, arcs that
+leave a line at no angle, dots.
+
+Strokes of digits, capitals, circuits and icons, with round ends. Distances in pixels between
 samples of both: root mean square and largest. Ends and junctions: the largest distance of a true
 one to the nearest found. Missed: part of the true length farther than a pixel from all found;
 false: the reverse. Width: largest error of the strokes' widths.
@@ -45,6 +48,19 @@ def _arc(x: float, y: float, rx: float, ry: float, begin: float, end: float) -> 
     return np.column_stack([x + rx * np.cos(t), y + ry * np.sin(t)])
 
 
+def _rounded(left: float, top: float, right: float, bottom: float, radius: float) -> Array:
+    """A closed rectangle with round corners."""
+    places = ((right, top, -90), (right, bottom, 0), (left, bottom, 90), (left, top, 180))
+    corners = [
+        _arc(
+            x + (radius if x == left else -radius), y + (radius if y == top else -radius),
+            radius, radius, begin, begin + 90,
+        )
+        for x, y, begin in places
+    ]  # fmt: skip
+    return np.concatenate([*corners, corners[0][:1]])
+
+
 def drawings() -> Iterator[StrokeDrawing]:
     """Letters, digits and circuits with pens of several widths."""
     motifs: dict[str, list[Array]] = {
@@ -73,7 +89,28 @@ def drawings() -> Iterator[StrokeDrawing]:
         )],
     }  # fmt: skip
     for name, lines in motifs.items():
-        for width in (1.5, 2.0, 3.0, 5.0, 8.0):
+        for width in (1.5, 2.0, 3.0, 5.0, 8.0, 12.0, 16.0):
+            yield StrokeDrawing(name, lines, width)
+    icons: dict[str, list[Array]] = {
+        "N arrow": [
+            np.array([(20, 100), (20, 30), (60, 100), (60, 30)], dtype=float),
+            np.array([(95, 70), (115, 95), (135, 70)], dtype=float),
+            np.array([(115, 95), (115, 25)], dtype=float),
+        ],
+        "crossed ring": [
+            _arc(80, 60, 42, 42, 0, 360), np.array([(20, 15), (140, 105)], dtype=float),
+            np.array([(38, 60), (122, 60)], dtype=float),
+        ],
+        "two frames": [
+            _rounded(30, 15, 130, 60, 16), _rounded(30, 60, 130, 105, 16),
+        ],
+        "dots": [
+            _rounded(15, 15, 145, 105, 20), _arc(80, 60, 11, 11, 0, 360),
+            *(np.array([(x, 60), (x + 0.01, 60)]) for x in (45.0, 115.0)),
+        ],
+    }  # fmt: skip
+    for name, lines in icons.items():
+        for width in (5.0, 8.0, 12.0, 16.0):
             yield StrokeDrawing(name, lines, width)
 
 
@@ -160,6 +197,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--output", type=Path, help="folder for pictures")
     chosen = parser.parse_args()
+    if chosen.output is not None:
+        chosen.output.mkdir(parents=True, exist_ok=True)
     print("| drawing | pen | strokes | rms | largest | ends and junctions | missed % | false %"
           " | width off |")  # fmt: skip
     print("|---|---|---|---|---|---|---|---|---|")

@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import shapespline as ss
+from benchmarks import center_lines
 from benchmarks.figure_style import save
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).parent.parent
 DATA = ROOT / "examples" / "data"
 TARGET = ROOT / "docs" / "figures" / "howto"
+# Pixels wide.
+SHOWN_PEN = 12.0
 BLUE, ORANGE, GREY = "#0072B2", "#D55E00", "#8A8A8A"
 
 
@@ -154,9 +157,26 @@ def folder_of_files(folder: Path) -> None:
     save(figure, TARGET / "folder_of_files.png", dpi=80)
 
 
+def centerlines(_: Path) -> None:
+    """Strokes of a pen, and the centre lines that are found in them."""
+    shown = [d for d in center_lines.drawings() if d.width == SHOWN_PEN][-4:]
+    figure, axes = canvas(len(shown))
+    for one, drawing in zip(axes, shown, strict=True):
+        picture = center_lines.rendered(drawing)
+        height, width = picture.shape
+        one.imshow(255 - (255 - picture) // 3, cmap="gray", vmin=0, extent=(0, width, 0, height))
+        for contour in ss.trace(picture, centerline=True):
+            one.plot(*contour.polyline.T, color=ORANGE, lw=1.8)
+            if not contour.closed:
+                one.plot(*contour.points[[0, -1]].T, "o", color=BLUE, ms=4)
+    figure.set_size_inches(16, 3.2)
+    save(figure, TARGET / "centerlines.png", dpi=80)
+
+
 def main() -> None:
     """All of them, in a temporary folder."""
-    for page in (logo_to_dxf, machines, leaf_to_step, points_to_svg, folder_of_files):
+    pages = (logo_to_dxf, machines, leaf_to_step, points_to_svg, folder_of_files, centerlines)
+    for page in pages:
         with tempfile.TemporaryDirectory() as folder:
             page(Path(folder))
 

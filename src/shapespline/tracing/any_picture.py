@@ -11,11 +11,11 @@ from PIL import Image
 
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.monitor import silent
-from shapespline.tracing.centerline import centerlines
 from shapespline.tracing.colors import checked_count, color_areas
 from shapespline.tracing.outlines import SELECTIONS, ink_outlines
 from shapespline.tracing.picture import load, pixels_of
 from shapespline.tracing.seeing import Seeing, checked_choice
+from shapespline.tracing.strokes import centerlines
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

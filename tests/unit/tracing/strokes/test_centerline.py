@@ -130,7 +130,7 @@ def test_centre_lines_can_be_fitted(tmp_path):
 
 def test_places_narrower_than_the_steps_along_an_outline_have_a_width():
     """Discs of no size divided by nothing there."""
-    picture = Path(__file__).parents[3] / "examples/data/images/opencv_HappyFish.png"
+    picture = Path(__file__).parents[4] / "examples/data/images/opencv_HappyFish.png"
     with pytest.warns(ss.PictureWarning):  # specks of its compression
         shape = ss.trace(picture, centerline=True)
     assert len(shape) > 10
