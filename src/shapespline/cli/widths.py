@@ -28,7 +28,14 @@ def read_wide(
     factor = width / width_of(read)
     if isinstance(read, ss.Drawing):  # exact curves are sampled in their new size
         found = cast("Drawing", ss.read(path, scale=factor, sampling=sampling, **rest))
-        return ss.Drawing(found.fits, found.parents, found.frame, unit, colors=found.colors)
+        return ss.Drawing(
+            found.fits,
+            found.parents,
+            found.frame,
+            unit,
+            colors=found.colors,
+            widths=found.widths,
+        )
     from shapespline.geometry import in_unit
 
     shape = cast("Shape", in_unit(read, scale=factor))

@@ -50,7 +50,7 @@ def is_tiled(drawing: Drawing) -> bool:
         return False
     covered = 0.0
     for group in groups(drawing):
-        if drawing.colors[group[0]] is None or not drawing.fits[group[0]].closed:
+        if drawing.colors[group[0]] is None or not drawing.is_area(group[0]):
             return False
         sizes = [drawing.fits[index].area for index in group]
         covered += sizes[0] - sum(sizes[1:])

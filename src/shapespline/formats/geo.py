@@ -50,7 +50,7 @@ def geometries(drawing: Drawing, chord: float | None) -> list[dict[str, Any]]:
     found = []
     for group in groups(drawing):
         first = drawing.fits[group[0]]
-        if first.closed:
+        if drawing.is_area(group[0]):
             rings = [
                 _ring(drawing.fits[index], chord, counter_clockwise=index == group[0])
                 for index in group
@@ -58,6 +58,8 @@ def geometries(drawing: Drawing, chord: float | None) -> list[dict[str, Any]]:
             found.append({"type": "Polygon", "coordinates": rings})
         else:
             points = _points(first, chord)
+            if first.closed:  # a stroke that comes back to where it began
+                points = np.concatenate([points, points[:1]])
             found.append({"type": "LineString", "coordinates": points.tolist()})
     return found
 

@@ -8,6 +8,7 @@ It is one object::
     frame    {x, y, width, height} or null
     parents  for each fit the index of the one directly around it, -1 for none
     colors   for each fit its colour as #rrggbb or null; not there if no fit has one
+    widths   for each fit how wide the stroke is along which it runs, or null; not there if none is
     reference  name of the coordinate reference system; not there if it is not known
     regularities  as of a fit, with indices of fits for pieces; not there if there are none
     fits     objects with the fields of shapespline.drawing.Fit:
@@ -81,7 +82,8 @@ LINE_LENGTH = 100
 DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
 FIT_FIELDS += ("status", "history", "method", "sections", "outliers", "uncertainty")
-NOT_ALWAYS = ("colors", "reference", "regularities")  # in a document only where a drawing has them
+LISTED = ("colors", "widths")  # for each fit; in a document, as others, only where there are some
+NOT_ALWAYS = (*LISTED, "reference", "regularities")
 DRAWING_FIELDS = ("format", "version", "unit", "frame", "parents", "fits")
 CONTOUR_FIELDS: tuple[str, ...] = ("closed", "points", "source", "accuracy")
 COUNTS = ("iteration", "evaluations")  # the columns of the history that hold integers
@@ -127,8 +129,8 @@ def encode(drawing: Drawing) -> bytes:
         "parents": list(drawing.parents),
         "fits": [_fit_document(fit) for fit in drawing],
     }
-    beside = {"colors": any(drawing.colors) and [*drawing.colors], "reference": drawing.reference}
-    document |= {name: value for name, value in beside.items() if value}
+    document |= {name: [*getattr(drawing, name)] for name in LISTED if any(getattr(drawing, name))}
+    document |= {"reference": drawing.reference} if drawing.reference else {}
     document |= regularities_document(drawing.regularities)
     return (_laid_out(document, 0) + "\n").encode("ascii")
 
@@ -293,12 +295,11 @@ def _drawing(document: object) -> Drawing:
     if unit is not None and unit not in UNITS:
         raise FormatError(f"unit must be null or one of {', '.join(UNITS)}, found {unit!r}")
     fits = [_fit(item, f"fits[{i}]") for i, item in enumerate(items)]
-    colors, reference = fields.get("colors"), fields.get("reference")
-    colors = None if colors is None else checked_list(colors, "colors")
+    listed = {name: checked_list(fields[name], name) for name in LISTED if name in fields}
     found = checked_regularities(fields.get("regularities", []), "regularities", len(fits))
     try:
-        return Drawing(fits, parents, frame, unit, colors=colors, reference=reference,
-                       regularities=found)  # fmt: skip
+        return Drawing(fits, parents, frame, unit, reference=fields.get("reference"),
+                       regularities=found, **listed)  # fmt: skip
     except InvalidInputError as error:
         raise FormatError(str(error)) from error
 

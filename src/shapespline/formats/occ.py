@@ -42,7 +42,7 @@ def faces(drawing: Drawing, scale: float) -> Any:
     shapes = []
     for group in groups(drawing):
         bounds = [_wire(drawing.fits[index], scale) for index in group]
-        face = _face(bounds) if drawing.fits[group[0]].closed else None
+        face = _face(bounds) if drawing.is_area(group[0]) else None
         shapes += bounds if face is None else [face]
     return _together(shapes)
 

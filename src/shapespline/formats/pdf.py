@@ -48,11 +48,14 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
     lines = [f"{_number(STROKE * scale * longer)} w 1 j 1 J"]
     paths = []
     for group in groups(drawing):
-        filled = fill and drawing.fits[group[0]].closed
+        filled = fill and drawing.is_area(group[0])
         color = drawing.colors[group[0]] if filled else None
         data = "\n".join(
             _path(scale * (cubics[index] - corner), drawing.fits[index].closed) for index in group
         )
+        own = drawing.widths[group[0]]
+        if own is not None:
+            data = f"{_number(scale * own)} w\n{data}"
         paths.append((color, data, "f*" if filled else "S"))
     if fill and is_tiled(drawing):
         # Beneath the areas their outlines: viewers smooth each area by itself, and what lies

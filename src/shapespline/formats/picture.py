@@ -56,7 +56,7 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
     size = (width, height)
     ink = Image.new("RGB", size, "white")
     for group in groups(drawing):
-        filled = fill and drawing.fits[group[0]].closed
+        filled = fill and drawing.is_area(group[0])
         shape = Image.new("1", size)
         for index in group:
             part = Image.new("1", size)
@@ -66,8 +66,8 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
                 ImageDraw.Draw(part).polygon(at, fill=1)
                 shape = ImageChops.logical_xor(shape, part)
             else:
-                stroke = max(1, round(STROKE * scale * longer))
-                ImageDraw.Draw(part).line(at, fill=1, width=stroke, joint="curve")
+                own = drawing.widths[index]
+                _draw_stroke(part, at, scale * (own or STROKE * longer), is_round=own is not None)
                 shape = ImageChops.logical_or(shape, part)
         ink.paste(drawing.colors[group[0]] or "black", mask=shape)
     picture = ink.reduce(OVERSAMPLING)
@@ -76,6 +76,16 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
     out = io.BytesIO()
     picture.save(out, format="PNG", optimize=True)
     return out.getvalue()
+
+
+def _draw_stroke(
+    part: Image.Image, at: list[tuple[float, float]], width: float, *, is_round: bool
+) -> None:
+    pen, wide = ImageDraw.Draw(part), max(1, round(width))
+    pen.line(at, fill=1, width=wide, joint=None if is_round else "curve")
+    half = 0.5 * (wide - 1)
+    for x, y in at if is_round else ():  # Pillow's own joints leave gaps in wide strokes
+        pen.ellipse([x - half, y - half, x + half, y + half], fill=1)
 
 
 def _window(drawing: Drawing, lines: list[FloatArray]) -> tuple[FloatArray, FloatArray]:

@@ -62,7 +62,7 @@ def svg_preview(value: Contour | Shape | Fit | Drawing) -> str:
     if isinstance(value, Drawing):
         for group in groups(value):
             data = "".join(_curve(place(cubics[k]), value.fits[k].closed) for k in group)
-            paths.append((value.fits[group[0]].closed, data))
+            paths.append((value.is_area(group[0]), data))
         paths.append((None, _dots([place(_nodes(fit)) for fit in value])))
     else:
         for kind in (True, False):

@@ -56,7 +56,7 @@ def encode(
     """Text of an SVG file with one path for each outline and its holes.
 
     Closed curves are filled by the even-odd rule, black if they have no colour of their own; open
-    ones are stroked and unfilled. y is
+    ones are stroked and unfilled, strokes of known width by a round pen of this width. y is
     turned over once. With a frame the view box is the frame and coordinates stay within it; without
     one the view box begins at (0, 0) and is the bounding box of the curves with a small margin, so
     that coordinates far from the origin (maps) survive programs that draw in single precision.
@@ -69,7 +69,8 @@ def encode(
     fill : bool
         Fill closed curves; otherwise they are stroked like open ones.
     stroke_width : float, optional
-        Width of strokes, data units; 1/400 of the longer side of the view box if not given.
+        Width of all strokes, data units. If not given it is that of the drawing's ``widths``, else
+        1/400 of the longer side of the view box.
     band : float, optional
         Draw the pointwise band of this level, such as 0.95, around every fit to points with errors.
 
@@ -116,7 +117,6 @@ def encode(
     placement = _placement(drawing.frame, pieces, stroke_width or 0.0)
     box = placement.view_box
     width = stroke_width or _rounded(STROKE * max(box.width, box.height))
-    stroked = f'fill="none" stroke="black" stroke-width="{_number(width)}" stroke-linejoin="round"'
     tiled = fill and is_tiled(drawing)
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
@@ -127,9 +127,11 @@ def encode(
     if tiled:
         lines += _underlay(width)
     for group in paths:
-        filled = fill and drawing.fits[group[0]].closed
+        filled = fill and drawing.is_area(group[0])
         color = drawing.colors[group[0]] or "black"
-        style = f'fill="{color}" fill-rule="evenodd"' if filled else stroked
+        style = f'fill="{color}" fill-rule="evenodd"'
+        if not filled:
+            style = _stroked(width, None if stroke_width else drawing.widths[group[0]])
         if tiled:
             style += f' stroke="{color}"'
         data = "".join(_path_data(drawing.fits[index], placement) for index in group)
@@ -140,6 +142,13 @@ def encode(
         lines += [_band_path(fit, band, placement) for fit in drawing if fit.uncertainty]
     lines.append("</svg>\n")
     return "\n".join(lines).encode("utf-8")
+
+
+def _stroked(width: float, own: float | None) -> str:
+    """Attributes of a stroke: thin, or as wide as it was drawn, with round ends."""
+    ends = ' stroke-linecap="round"' if own else ""
+    shown = f'stroke-width="{_number(own or width)}"{ends} stroke-linejoin="round"'
+    return f'fill="none" stroke="black" {shown}'
 
 
 def _underlay(width: float) -> list[str]:

@@ -90,7 +90,16 @@ def transformed_drawing(drawing: Drawing, matrix: ArrayLike) -> Drawing:
         corners = affine(np.column_stack([x, y + frame.height * np.array([0, 1, 0, 1])]))
         frame = ViewBox(*corners.min(axis=0).tolist(), *np.ptp(corners, axis=0).tolist())
     fits = [transformed_fit(fit, matrix) for fit in drawing]
-    return Drawing(fits, drawing.parents, frame, drawing.unit, colors=drawing.colors)
+    # A pen that is stretched is none any more: its strokes stay as wide in the mean.
+    factor = float(np.sqrt(affine.largest * affine.smallest))
+    return Drawing(
+        fits,
+        drawing.parents,
+        frame,
+        drawing.unit,
+        colors=drawing.colors,
+        widths=[None if width is None else factor * width for width in drawing.widths],
+    )
 
 
 def transformed_fit(fit: Fit, matrix: ArrayLike) -> Fit:

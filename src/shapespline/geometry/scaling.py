@@ -84,7 +84,6 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
     if isinstance(value, Shape):
         left_out = [_contour(item, factor) for item in value.left_out]
         contours = [_contour(item, factor) for item in value]
-        widths = [None if width is None else factor * width for width in value.widths]
         return Shape(
             contours,
             value.parents,
@@ -92,7 +91,7 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
             unit,
             left_out=left_out,
             colors=value.colors,
-            widths=widths,
+            widths=_widths(value, factor),
             reference=reference,
         )
     if isinstance(value, Outlines):
@@ -104,9 +103,14 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
         frame,
         unit,
         colors=value.colors,
+        widths=_widths(value, factor),
         reference=reference,
         regularities=[one._replace(off=factor * one.off) for one in value.regularities],
     )
+
+
+def _widths(value: Shape | Drawing, factor: float) -> list[float | None]:
+    return [None if width is None else factor * width for width in value.widths]
 
 
 def _contour(contour: Contour, factor: float) -> Contour:

@@ -12,6 +12,7 @@ from shapespline.values.shape import (
     checked_colors,
     checked_parents,
     checked_reference,
+    checked_widths,
     counted,
     nesting_depth,
 )
@@ -49,6 +50,9 @@ class Drawing(ByValue, Shown, Exchanged):
     colors : sequence of str or None, optional
         For each fit the colour of the area within it, as #rrggbb; None, the default, for a hole
         and where no colour is known.
+    widths : sequence of float or None, optional
+        For each fit along the centre line of a stroke how wide the stroke is, in the unit of the
+        coordinates; None, the default, for outlines.
     reference : str, optional
         Coordinate reference system of the points, such as "EPSG:25832", if known.
     regularities : sequence of Regularity, optional
@@ -61,6 +65,7 @@ class Drawing(ByValue, Shown, Exchanged):
     frame: ViewBox | None
     unit: str | None
     colors: tuple[str | None, ...]
+    widths: tuple[float | None, ...]
     reference: str | None
     regularities: tuple[OutlineRegularity, ...]
 
@@ -72,6 +77,7 @@ class Drawing(ByValue, Shown, Exchanged):
         unit: str | None = None,
         *,
         colors: Sequence[str | None] | None = None,
+        widths: Sequence[float | None] | None = None,
         reference: str | None = None,
         regularities: Sequence[Regularity] = (),
     ) -> None:
@@ -86,6 +92,7 @@ class Drawing(ByValue, Shown, Exchanged):
         object.__setattr__(self, "frame", frame)
         object.__setattr__(self, "unit", checked_unit(unit))
         object.__setattr__(self, "colors", checked_colors(colors, len(fits)))
+        object.__setattr__(self, "widths", checked_widths(widths, len(fits)))
         object.__setattr__(self, "reference", checked_reference(reference))
         listed = tuple(OutlineRegularity._make(one) for one in regularities)
         object.__setattr__(self, "regularities", listed)
@@ -99,7 +106,7 @@ class Drawing(ByValue, Shown, Exchanged):
         Parameters
         ----------
         shape : Shape
-            Gives nesting, frame, unit, colours and coordinate reference.
+            Gives nesting, frame, unit, colours, widths of strokes and coordinate reference.
         fits : sequence of Fit
             One for each contour, in their order.
         regularities : sequence of Regularity, optional
@@ -125,6 +132,7 @@ class Drawing(ByValue, Shown, Exchanged):
             shape.frame,
             shape.unit,
             colors=shape.colors,
+            widths=shape.widths,
             reference=shape.reference,
             regularities=regularities,
         )
@@ -151,8 +159,13 @@ class Drawing(ByValue, Shown, Exchanged):
             self.frame,
             self.unit,
             colors=self.colors,
+            widths=self.widths,
             reference=self.reference,
         )
+
+    def is_area(self, index: int) -> bool:
+        """Whether a fit is the outline of an area: it is closed, and no line along a stroke."""
+        return self.fits[index].closed and self.widths[index] is None
 
     def is_hole(self, index: int) -> bool:
         """Whether the fit lies inside an odd number of others."""
