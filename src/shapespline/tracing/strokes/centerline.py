@@ -42,6 +42,8 @@ FITS, FITS_PART, TWICE = 0.35, 0.01, 1.35
 # The pen is believed where its strokes explain the outlines as well, but for this part and so many
 # pixels (TRC-26).
 AS_WELL, AS_WELL_PIXELS = 1.05, 0.02
+# So many radii from the end of a stroke are around it.
+AROUND = 1.2
 # Where ink is out of the reach of the pen it is if they do so by this part, and that ink is within
 # so many radii: some stroke was not led on as it should.
 BETTER, REACH = 0.8, 2.0
@@ -188,15 +190,24 @@ def _area(outline: FloatArray) -> float:
 
 
 def _misfit(strokes: Sequence[Stroke], outline: FloatArray) -> float:
-    """How far, in the mean, an outline is from that of the ink that strokes would leave."""
+    """How far, in the mean, an outline is from that of the ink that strokes would leave.
+
+    What is around the end of a stroke does not count: it may be square.
+    """
     from scipy.spatial import cKDTree
 
     if not strokes:
         return np.inf
     points = np.concatenate([stroke.points for stroke in strokes])
-    radii = np.repeat([0.5 * stroke.width for stroke in strokes], [len(s.points) for s in strokes])
+    sizes = [len(stroke.points) for stroke in strokes]
+    radii = np.repeat([0.5 * stroke.width for stroke in strokes], sizes)
+    is_end = np.zeros(len(points), dtype=bool)
+    last = np.cumsum(sizes) - 1
+    is_end[last] = is_end[last - np.array(sizes) + 1] = True
     off, nearest = cKDTree(points).query(outline)
-    return float(np.minimum(np.abs(off - radii[nearest]), radii[nearest]).mean())
+    around = is_end[nearest] & (off <= AROUND * radii[nearest])
+    misfits = np.minimum(np.abs(off - radii[nearest]), radii[nearest])[~around]
+    return float(misfits.mean()) if len(misfits) else 0.0
 
 
 def _dot(outline: FloatArray) -> Stroke:
