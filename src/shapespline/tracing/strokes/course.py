@@ -17,12 +17,31 @@ BESIDE, LEAST_BESIDE, BENT = 3.0, 3.0, 0.25
 # Lines that meet at less say nothing of where (TRC-12).
 LEAST_TURN = np.radians(20.0)
 
+# A stroke leads on from its end as it did over so many radii, and so many pixels at least, but for
+# those beside its end, where a notch or corner is rounded.
+SEEN, SEEN_PIXELS, NOTCH = 2.0, 4.0, 1.0
+# How that is read, the first that follows it within so many pixels: a line or a parabola along this
+# part of it. What turns into a line was drawn to end as one (TRC-26).
+READINGS, FOLLOWED = ((1.0, 1), (1.0, 2), (0.7, 1), (0.5, 1), (0.35, 1), (1.0, 2)), 0.1
+
 
 class StraightCourse(NamedTuple):
     """Where a stroke runs beside a junction: through a place, along a direction away from it."""
 
     place: FloatArray
     along: FloatArray
+
+
+class EndCourse(NamedTuple):
+    """Where the end of a stroke leads: its direction, and how that changes along a pixel."""
+
+    direction: FloatArray
+    bend: FloatArray
+
+    def way(self, start: FloatArray, length: float) -> FloatArray:
+        """Places a pixel apart from its end on."""
+        u = np.linspace(0.0, length, max(2, int(length) + 1))[:, None]
+        return np.asarray(start + u * self.direction + 0.5 * u**2 * self.bend)
 
 
 class Turn(NamedTuple):
@@ -110,3 +129,25 @@ def turned(
         points[at] = place
     kept[list(places)] = True
     return points[kept], [int(np.count_nonzero(kept[:at])) for at in sorted(places)]
+
+
+def end_course(points: FloatArray, radius: float) -> EndCourse:
+    """Where a line leads beyond its first point."""
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+    # Where it ends a notch or a corner is rounded.
+    clear = along >= NOTCH
+    if along[-1] > 3.0 * NOTCH and clear.sum() > 1:
+        points, along = points[clear], along[clear]
+    longest = max(SEEN * radius, SEEN_PIXELS)
+    terms = np.array([points[1] - points[0], points[0]])  # of places far from each other
+    for part, degree in READINGS:
+        seen = along - along[0] <= max(part * longest, SEEN_PIXELS)
+        if seen.sum() > degree:
+            terms = np.polyfit(along[seen], points[seen], degree)
+            off = np.vander(along[seen], degree + 1) @ terms - points[seen]
+            if np.abs(off).max() <= FOLLOWED:
+                break
+    # Its length counts from where it ends: it leads on the other way.
+    speed = max(float(np.hypot(*terms[-2])), 1e-12)
+    bend = 2.0 * terms[0] / speed**2 if len(terms) == 3 else np.zeros(2)
+    return EndCourse(-terms[-2] / speed, bend)

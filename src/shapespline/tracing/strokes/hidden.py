@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.tracing.strokes.course import StraightCourse, meeting
+from shapespline.tracing.strokes.course import EndCourse, StraightCourse, end_course, meeting
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -16,12 +16,6 @@ if TYPE_CHECKING:
     from shapespline.tracing.strokes.pen_net import PenNet
     from shapespline.typing import FloatArray
 
-# A stroke that ink hides goes on as it did over so many radii, and so many pixels at least, but for
-# those beside what hides it, where a notch is rounded.
-SEEN, SEEN_PIXELS, NOTCH = 2.0, 4.0, 1.0
-# How that is read, the first that follows it within so many pixels: a line or a parabola along this
-# part of it. What turns into a line was drawn to end as one (TRC-26).
-READINGS, FOLLOWED = ((1.0, 1), (1.0, 2), (0.7, 1), (0.5, 1), (0.35, 1), (1.0, 2)), 0.1
 # Over so many radii it is sought on the other side, within this angle of its course.
 ACROSS, ASIDE = 8.0, np.radians(40.0)
 # It meets another stroke within so many radii, at a corner or junction if that is within this part
@@ -37,18 +31,6 @@ class _Crossed(NamedTuple):
     at: float
     edge: tuple[int, int]
     place: FloatArray
-
-
-class _Course(NamedTuple):
-    """Where a loose end leads: its direction, and how that changes along a pixel."""
-
-    direction: FloatArray
-    bend: FloatArray
-
-    def way(self, start: FloatArray, length: float) -> FloatArray:
-        """Places a pixel apart from its end on."""
-        u = np.linspace(0.0, length, max(2, int(length) + 1))[:, None]
-        return np.asarray(start + u * self.direction + 0.5 * u**2 * self.bend)
 
 
 def lead_on(net: PenNet, pen: Pen, outline: cKDTree) -> None:
@@ -189,31 +171,15 @@ class _Leading:
             for path in stubs:
                 graph.disconnect_all(path)
 
-    def _course(self, node: int) -> _Course:
+    def _course(self, node: int) -> EndCourse:
         """Where a loose end leads, and how its way bends."""
         graph = self.graph
         path = graph.walk(node, next(iter(graph.links[node])))
         corner = next((k for k, at in enumerate(path) if k and at in graph.corners), len(path))
         points = graph.points[path[: corner + 1]]
-        along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
         if len(points) < 3:
-            points, along = graph.points[path[:2]], np.array([0.0, 1.0])
-        # The notch where it ends is rounded.
-        if along[-1] > 3.0 * NOTCH:
-            clear = along >= NOTCH
-            points, along = points[clear], along[clear]
-        longest = max(SEEN * self.pen.radius, SEEN_PIXELS)
-        for part, degree in READINGS:
-            seen = along - along[0] <= max(part * longest, SEEN_PIXELS)
-            if seen.sum() > degree:
-                terms = np.polyfit(along[seen], points[seen], degree)
-                off = np.vander(along[seen], degree + 1) @ terms - points[seen]
-                if np.abs(off).max() <= FOLLOWED:
-                    break
-        # Its length counts from where it ends: it leads on the other way.
-        speed = max(float(np.hypot(*terms[-2])), 1e-12)
-        bend = 2.0 * terms[0] / speed**2 if degree == 2 else np.zeros(2)
-        return _Course(-terms[-2] / speed, bend)
+            points = graph.points[path[:2]]
+        return end_course(points, self.pen.radius)
 
     def _is_inked(self, places: FloatArray) -> bool:
         """Whether the pen can have been there."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.tracing.strokes.course import course_of
+from shapespline.tracing.strokes.course import course_of, end_course
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,6 +21,8 @@ LINE_STEP = 1.0
 # An end is square if its outline beside the middle is no farther back than this part of the
 # radius; of a half disc it is 0.2 (TRC-12).
 SQUARE = 0.1
+# What bends ends no farther than so many radii from the last disc: else it is not its end.
+FARTHEST = 1.1
 
 
 class Stroke(NamedTuple):
@@ -51,37 +53,45 @@ def stroke_of(
         for at_end in (False, True):
             if branch.nodes[at_end] >= 0:
                 continue
-            end = _drawn_end(points[::-1] if at_end else points, 0.5 * branch.width, outline)
-            if end is not None and at_end:
-                points = np.concatenate([points, [end]])
-            elif end is not None:
-                points, fixed = np.concatenate([[end], points]), [k + 1 for k in fixed]
+            beyond = _beyond(points[::-1] if at_end else points, 0.5 * branch.width, outline)
+            if at_end:
+                points = np.concatenate([points, beyond])
+            else:
+                points = np.concatenate([beyond[::-1], points])
+                fixed = [k + len(beyond) for k in fixed]
     line = _even_steps(points, fixed, branch.is_ring)
     return None if line is None else Stroke(line, branch.is_ring, branch.width)
 
 
-def _drawn_end(points: FloatArray, radius: float, outline: cKDTree) -> FloatArray | None:
-    """Where a stroke that loosely begins with its first point was begun; None for a tip."""
-    course = course_of(points, points[0], 0.0, radius)
-    if course is None:
-        return None
-    back = -course.along
-    near = outline.data[outline.query_ball_point(points[0], 2.5 * radius + 1.0)] - course.place
+def _beyond(points: FloatArray, radius: float, outline: cKDTree) -> FloatArray:
+    """How a stroke that loosely begins with its first point was begun; nothing at a tip."""
+    nothing = np.empty((0, 2))
+    if len(points) < 3:
+        return nothing
+    bent, straight = end_course(points, radius), course_of(points, points[0], 0.0, radius)
+    place, back = points[0], bent.direction
+    if straight is not None:
+        place, back = straight.place, -straight.along
+    near = outline.data[outline.query_ball_point(points[0], 2.5 * radius + 1.0)] - place
     along, aside = near @ back, np.abs(near @ np.array((-back[1], back[0])))
-    own = float((points[0] - course.place) @ back)
+    own = float((points[0] - place) @ back)
     middle = along[(along > own) & (aside <= max(0.3 * radius, 0.3))]
     beside = along[(along > own) & (aside >= 0.5 * radius) & (aside <= 0.8 * radius)]
     if len(middle) == 0:
-        return None
+        return nothing
     # Farther away is other ink.
     last = float(middle.min()) + 0.5 * radius + 0.5
     middle, beside = middle[middle <= last], beside[beside <= last]
     if len(beside) == 0:
-        return None
+        return nothing
     reach = float(middle.mean())
     if reach - float(beside.mean()) > SQUARE * radius:
         reach -= radius
-    return course.place + reach * back if reach > own else None
+    if reach <= own:
+        return nothing
+    if straight is None:
+        return bent.way(points[0], reach)[1:] if reach <= FARTHEST * radius else nothing
+    return np.asarray(place + reach * back)[None]
 
 
 def _even_steps(points: FloatArray, fixed: Sequence[int], is_ring: bool) -> FloatArray | None:

@@ -143,3 +143,16 @@ def test_beside_other_ink_an_end_stays_where_it_is():
     lines = [[(60, 15), (60, 60)], [(20, 75), (100, 75)]]
     _, found = traced(lines, 10.0)
     assert cKDTree(samples(lines)).query(samples(found))[0].max() <= NEAR
+
+
+def test_a_bent_stroke_with_square_ends_reaches_them():
+    rows, columns = np.mgrid[: 4 * SIZE[0], : 4 * SIZE[1]]
+    x, y = (columns + 0.5) / 4 - 60, (rows + 0.5) / 4 - 85
+    angle = np.degrees(np.arctan2(-y, x))
+    ink = (np.abs(np.hypot(x, y) - 60) <= 7) & (np.abs(angle - 90) <= 50)
+    counted = ink.reshape(SIZE[0], 4, SIZE[1], 4).mean(axis=(1, 3))
+    (found,) = ss.trace(np.rint(255 * (1 - counted)).astype(np.uint8), centerline=True)
+    points = found.points * (1, -1) + (-60, SIZE[0] - 85)
+    assert np.abs(np.hypot(*points.T) - 60).max() <= NEAR
+    ends = np.degrees(np.arctan2(-points[[0, -1], 1], points[[0, -1], 0]))
+    assert np.radians(np.abs(np.sort(ends) - (40, 140))).max() * 60 <= NEAR
