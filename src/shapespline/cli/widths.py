@@ -18,6 +18,8 @@ def read_wide(
     path: Path, width: float, sampling: float | None, given: Mapping[str, Any]
 ) -> Shape | Drawing:
     """What a file holds, so wide; ``given`` are the options of reading, its unit among them."""
+    from shapespline.geometry import scaled
+
     unit = given.get("unit")
     if "scale" in given or "dpi" in given:
         raise ss.InvalidInputError("--width, --scale and --dpi exclude each other: give one")
@@ -28,26 +30,8 @@ def read_wide(
     factor = width / width_of(read)
     if isinstance(read, ss.Drawing):  # exact curves are sampled in their new size
         found = cast("Drawing", ss.read(path, scale=factor, sampling=sampling, **rest))
-        return ss.Drawing(
-            found.fits,
-            found.parents,
-            found.frame,
-            unit,
-            colors=found.colors,
-            widths=found.widths,
-        )
-    from shapespline.geometry import in_unit
-
-    shape = cast("Shape", in_unit(read, scale=factor))
-    return ss.Shape(
-        shape.contours,
-        shape.parents,
-        shape.frame,
-        unit,
-        left_out=shape.left_out,
-        colors=shape.colors,
-        widths=shape.widths,
-    )
+        return cast("Drawing", scaled(found, 1.0, unit))
+    return cast("Shape", scaled(read, factor, unit))
 
 
 def width_of(held: Shape | Drawing) -> float:

@@ -31,7 +31,7 @@ from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
 from shapespline.geometry.polygons import Drawable, as_drawing, polygon_drawing, polyline_curve
 from shapespline.geometry.reversal import backwards, reversed_curve
-from shapespline.geometry.scaling import in_unit
+from shapespline.geometry.scaling import in_unit, scaled
 
 __all__ = [
     "FLOOR",
@@ -81,6 +81,7 @@ __all__ = [
     "reversed_fit",
     "rounding",
     "sampled",
+    "scaled",
     "self_crossings",
     "signed_area",
     "split_fit",

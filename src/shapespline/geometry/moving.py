@@ -18,6 +18,7 @@ from shapespline.geometry.distances import two_sided_distance
 from shapespline.geometry.joining import joined
 from shapespline.geometry.nearest import nondecreasing
 from shapespline.geometry.reversal import backwards, reversed_curve
+from shapespline.geometry.scaling import scaled_widths
 from shapespline.geometry.splitting import cut_pieces, placed_pieces
 from shapespline.validation import float_array
 from shapespline.values import (
@@ -98,7 +99,7 @@ def transformed_drawing(drawing: Drawing, matrix: ArrayLike) -> Drawing:
         frame,
         drawing.unit,
         colors=drawing.colors,
-        widths=[None if width is None else factor * width for width in drawing.widths],
+        widths=scaled_widths(drawing, factor),
     )
 
 

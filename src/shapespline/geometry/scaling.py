@@ -91,7 +91,7 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
             unit,
             left_out=left_out,
             colors=value.colors,
-            widths=_widths(value, factor),
+            widths=scaled_widths(value, factor),
             reference=reference,
         )
     if isinstance(value, Outlines):
@@ -103,13 +103,14 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
         frame,
         unit,
         colors=value.colors,
-        widths=_widths(value, factor),
+        widths=scaled_widths(value, factor),
         reference=reference,
         regularities=[one._replace(off=factor * one.off) for one in value.regularities],
     )
 
 
-def _widths(value: Shape | Drawing, factor: float) -> list[float | None]:
+def scaled_widths(value: Shape | Drawing, factor: float) -> list[float | None]:
+    """Of strokes, multiplied."""
     return [None if width is None else factor * width for width in value.widths]
 
 

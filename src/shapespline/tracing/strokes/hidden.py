@@ -21,8 +21,8 @@ ACROSS, ASIDE = 8.0, np.radians(40.0)
 # It meets another stroke within so many radii, at a corner or junction if that is within this part
 # of one and half a pixel.
 AHEAD, AT_CORNER = 4.0, 0.3
-# Pieces that end loosely within so many radii of where they part are what rounding left.
-STUB = 0.8
+# Pixels between places that are one.
+SAME = 1e-6
 
 
 class _Crossed(NamedTuple):
@@ -48,7 +48,6 @@ def lead_on(net: PenNet, pen: Pen, outline: cKDTree) -> None:
     leading.across()
     leading.to_strokes()
     leading.to_each_other()
-    leading.prune()
 
 
 class _Leading:
@@ -156,21 +155,6 @@ class _Leading:
             for node in group:
                 self.graph.connect(node, middle)
 
-    def prune(self) -> None:
-        """Take away what ends loosely soon after it parted and is no end of a stroke."""
-        graph = self.graph
-        while True:
-            stubs = []
-            for node in self._hidden():
-                path = graph.walk(node, next(iter(graph.links[node])))
-                is_short = graph.length(path) <= STUB * self.pen.radius
-                if is_short and len(graph.links[path[-1]]) > 2:
-                    stubs.append(path)
-            if not stubs:
-                return
-            for path in stubs:
-                graph.disconnect_all(path)
-
     def _course(self, node: int) -> EndCourse:
         """Where a loose end leads, and how its way bends."""
         graph = self.graph
@@ -242,7 +226,10 @@ class _Leading:
         return special[nearest] if off[nearest] <= AT_CORNER * self.pen.radius + 0.5 else None
 
     def _part(self, met: _Crossed) -> int:
-        """A new node in an edge of the net."""
+        """The node at the place where an edge of the net is met, a new one between its ends."""
+        for end in met.edge:
+            if np.hypot(*(self.graph.points[end] - met.place)) <= SAME:
+                return end
         (node,) = self._new(met.place[None])
         self.graph.disconnect(*met.edge)
         self.graph.connect_all([met.edge[0], node, met.edge[1]])
