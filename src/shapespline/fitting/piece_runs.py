@@ -14,7 +14,7 @@ import numpy as np
 from shapespline.analysis import bends_evenly
 from shapespline.fitting.choose import ROUGH_PART
 from shapespline.fitting.smooth import corners_of, row_from
-from shapespline.geometry import turn_between
+from shapespline.geometry import PointsByX, turn_between
 from shapespline.values import CORNER_TURN
 
 if TYPE_CHECKING:
@@ -130,23 +130,22 @@ def _corners(problem: Problem, pieces: Sequence[Piece], turns: dict[int, float])
 
     In canonical order: of data that lie on themselves several points are as near.
     """
-    data, order = problem.contour.points, problem.normalized.order
-    at = {k: int(_far(data[order], pieces[k]).argmin()) for k in turns}
+    order = problem.normalized.order
+    data = PointsByX.of(problem.contour.points[order])
+    at = {k: data.nearest(pieces[k].control_points[0])[0] for k in turns}
     way = -1 if problem.normalized.reversed else 1
     joints = sorted(turns, key=lambda k: (at[k], way * k))
     corners, found = corners_of(problem), dict.fromkeys(joints, -1)
     if len(corners):
-        far = np.column_stack([_far(data[corners], pieces[k]) for k in joints])
-        for i, k in enumerate(far.argmin(axis=1).tolist()):
-            if far[i, k] <= REACH * problem.tolerance and far[:, k].argmin() == i:
+        nodes = np.array([pieces[k].control_points[0] for k in joints])
+        points = problem.contour.points[corners]
+        to_node, to_corner = PointsByX.of(nodes), PointsByX.of(points)
+        for i, point in enumerate(points):
+            k, distance = to_node.nearest(point)
+            near = distance <= REACH * problem.tolerance
+            if near and to_corner.nearest(nodes[k])[0] == i:
                 found[joints[k]] = int(corners[i])
     for k in joints:
         if found[k] < 0 and turns[k] > MOST_NEEDLESS:
             found[k] = int(order[at[k]])
     return [_Cut(k, point) for k, point in found.items() if point >= 0]
-
-
-def _far(points: FloatArray, piece: Piece) -> FloatArray:
-    """Distances of points from the beginning of a piece."""
-    away = points - piece.control_points[0]
-    return np.hypot(away[:, 0], away[:, 1])

@@ -9,7 +9,7 @@ import numpy as np
 
 from shapespline.analysis import NormalizedContour, filled, has_straight_runs
 from shapespline.engines.drawn import as_drawn
-from shapespline.engines.pieces import PiecesProblem
+from shapespline.engines.pieces import DataBeside, PiecesProblem
 from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
@@ -116,6 +116,6 @@ class Problem:
         return not (len(self.pieces.corners) or self.has_straight_runs)
 
     @cached_property
-    def drawn(self) -> Contour:
+    def data_beside(self) -> DataBeside:
         """The data as they came, with points along edges that were drawn as lines."""
-        return filled(self._dense)
+        return DataBeside.of(filled(self._dense))

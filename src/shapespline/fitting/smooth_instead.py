@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.pieces import drawn_straight
 from shapespline.fitting.piece_runs import runs_of
 from shapespline.fitting.smooth import as_piece, one_spline
 from shapespline.fitting.strategies import SMOOTHED, OneSpline
@@ -102,7 +101,7 @@ def _any_straight(run: Run, problem: Problem) -> bool:
     for piece in run.pieces:
         side = piece.control_points[-1] - piece.control_points[0]
         is_long = piece.degree == 1 and np.hypot(*side) > longest
-        if is_long or drawn_straight(piece, problem.drawn, problem.tolerance):
+        if is_long or problem.data_beside.are_straight(piece, problem.tolerance):
             return True
     return False
 

@@ -249,7 +249,7 @@ class JointSmoother {
 
     bool accept(long i0, long i1, const std::vector<Section> &window) {
         const LawsonLimits limits{tolerance_, kRounds, kStrays};
-        const LawsonResult result =
+        LawsonResult result =
             LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits).run();
         if (!result.kept) return false;
         if (asks_ != Asks::kNothing &&
@@ -257,7 +257,7 @@ class JointSmoother {
             refused_ = true;
             return false;
         }
-        ring_.replace(i0, i1, result.sections);
+        ring_.replace(i0, i1, std::move(result.sections));
         return true;
     }
 

@@ -103,11 +103,11 @@ class Reduction {
             window.erase(window.begin() + (i - i0), window.begin() + (i - i0 + old));
             window.insert(window.begin() + (i - i0), fresh.begin(), fresh.end());
             const LawsonLimits limits{settings_.tolerance, kRounds, most_strays(settings_.smooth)};
-            const LawsonResult result =
+            LawsonResult result =
                 LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits)
                     .run();
             if (result.kept && fairness_.may_replace(ring_, i0, i1, result.sections)) {
-                ring_.replace(i0, i1, result.sections);
+                ring_.replace(i0, i1, std::move(result.sections));
                 return true;
             }
         }

@@ -1,6 +1,8 @@
 // The sections of a whole outline, from which windows are taken and into which they are put back.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "shapespline/pieces/lawson.hpp"
@@ -47,19 +49,21 @@ class SectionRing {
     }
 
     // Puts other sections where i0 .. i1 were; the first of them becomes section i0 (wrapped
-    // windows: section 0).
-    void replace(long i0, long i1, const std::vector<Section> &with) {
-        const long n = size(), a = static_cast<long>(wrapped(i0));
-        std::vector<Section> result;
-        if (a + (i1 - i0) < n) {
-            result.assign(sections_.begin(), sections_.begin() + a);
-            result.insert(result.end(), with.begin(), with.end());
-            result.insert(result.end(), sections_.begin() + a + (i1 - i0 + 1), sections_.end());
+    // windows: section 0). All others stay the same objects: a copy of the ring for each move
+    // would make searches quadratic.
+    void replace(long i0, long i1, std::vector<Section> with) {
+        const long n = size(), count = i1 - i0 + 1;
+        long a = static_cast<long>(wrapped(i0));
+        if (a + count > n) {
+            const auto begin = sections_.begin();
+            std::rotate(begin, begin + (a + count - n), begin + a);
+            sections_.erase(begin + (n - count), sections_.end());
+            a = 0;
         } else {
-            result = with;
-            for (long i = i1 + 1; i < i0 + n; ++i) result.push_back(at(i));
+            sections_.erase(sections_.begin() + a, sections_.begin() + a + count);
         }
-        sections_ = std::move(result);
+        sections_.insert(sections_.begin() + a, std::make_move_iterator(with.begin()),
+                         std::make_move_iterator(with.end()));
         renumber();
     }
 

@@ -42,6 +42,8 @@ WHOLE, MOST_POINTS, MOST_OF_ONE_SPLINE = (0.97, 0.9, 0.65, 0.35), 300, 1000
 CHEAP, CLOSEST_FOR_FEWER = 1.03, 0.9
 # Pieces this near to a hook, in tolerances, are fitted again.
 ABOUT = 0.5
+# Boxes of pieces are looked at first, so much farther: distances are rounded.
+BOXES = 1.001
 TURNS_BACK = "it turns back where the data do not"
 
 
@@ -129,9 +131,12 @@ def _hooked_parts(row: PieceAssignment) -> list[int]:
     tolerance = row.fit.tolerance
     data = row.fit.contour
     places = hooks(row.line, data.polyline, tolerance, closed=data.closed)
-    near = (ABOUT * tolerance) ** 2
-    return [
-        k
-        for k, part in enumerate(row.parts)
-        if any(distances_sq(place, part.line).min() <= near for place in places)
-    ]
+    reach = ABOUT * tolerance
+    low = np.array([part.line.min(axis=0) for part in row.parts]) - BOXES * reach
+    high = np.array([part.line.max(axis=0) for part in row.parts]) + BOXES * reach
+    found = set()
+    for place in places:
+        for k in np.flatnonzero(((place >= low) & (place <= high)).all(axis=1)).tolist():
+            if distances_sq(place, row.parts[k].line).min() <= reach**2:
+                found.add(k)
+    return sorted(found)
