@@ -6,10 +6,11 @@ is that of chi-squared.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.analysis.drawn_vertices import are_drawn_vertices
 from shapespline.validation import median
 
 if TYPE_CHECKING:
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 # Points on each side of the middle of a local fit (ANA-01).
 HALF_WINDOW = 3
+# Below this part of the box diagonal noise sets nothing, and is not asked where it comes from.
+NO_NOISE = 1e-4
 # So many windows tell the median to 2 %; of more, every so many-th is looked at.
 MOST_WINDOWS = 5_000
 # Of fewer points nobody can tell noise from bends (ANA-01).
@@ -35,6 +38,13 @@ _SLOPE_AND_REST = np.column_stack([_FIT[-2], np.eye(len(_POWERS)) - _POWERS @ _F
 _CHI_SQUARED_MEDIAN = 2.365974
 
 
+class Scatter(NamedTuple):
+    """Standard deviation across the outline, data units, and whether vertices look so scattered."""
+
+    noise: float
+    of_vertices: bool = False
+
+
 def noise_level(contour: Contour) -> float:
     """Standard deviation of the points across the outline, data units.
 
@@ -42,7 +52,8 @@ def noise_level(contour: Contour) -> float:
     tangent of the cubic in the middle, so that uneven steps along the outline do not count. Under
     normal noise the tangent and what is left are independent, and the square of what is left is
     chi-squared: its median over all windows, which ignores corners, tells the deviation. Not less
-    than the accuracy that the contour is known to have; 0 for fewer than 64 points without one.
+    than the accuracy that the contour is known to have. That alone counts of fewer than 64 points,
+    and where they are the vertices of what was drawn; 0 where none is known.
 
     Examples
     --------
@@ -52,10 +63,15 @@ def noise_level(contour: Contour) -> float:
     >>> bool(0.09 < noise_level(Contour(points, closed=False)) < 0.11)
     True
     """
+    return scatter(contour).noise
+
+
+def scatter(contour: Contour) -> Scatter:
+    """The same, and whether the points are the vertices of what was drawn."""
     known = contour.accuracy or 0.0
     width = 2 * HALF_WINDOW + 1
-    if len(contour) < FEWEST_POINTS:
-        return known
+    if len(contour) < FEWEST_POINTS or contour.accuracy == 0:
+        return Scatter(known)
     points = contour.points - contour.points[0]
     if contour.closed:
         points = np.concatenate([points[-HALF_WINDOW:], points, points[:HALF_WINDOW]])
@@ -68,7 +84,11 @@ def noise_level(contour: Contour) -> float:
     across = x[:, 1:] * y[:, :1] - y[:, 1:] * x[:, :1]
     speed_sq = np.maximum(x[:, 0] ** 2 + y[:, 0] ** 2, np.finfo(float).tiny)
     level_sq = median((across**2).sum(axis=1) / speed_sq) / _CHI_SQUARED_MEDIAN
-    return max(known, float(np.sqrt(level_sq)))
+    level = max(known, float(np.sqrt(level_sq)))
+    tells = level > max(known, NO_NOISE * contour.box_diagonal)
+    if tells and are_drawn_vertices(contour.points, contour.closed, level):
+        return Scatter(known, of_vertices=True)
+    return Scatter(level)
 
 
 def largest_bulge(contour: Contour) -> float:

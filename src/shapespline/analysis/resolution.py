@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.analysis.noise import noise_level
+from shapespline.analysis.noise import scatter
 from shapespline.validation import median
 
 if TYPE_CHECKING:
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 # points; the length lies within these parts of the box diagonal.
 SAMPLING_PART = 0.1
 BOX_PARTS = (0.0005, 0.001)
+# Of vertices that were drawn none is left out: the band is this part of the shortest edge.
+VERTEX_PART = 0.01
 # A band about the data is so many standard deviations wide. Noise that the source knows, a
 # picture's, is bounded and alike from point to point: three are enough.
 NOISE_BAND, ACCURACY_BAND = 4.0, 3.0
@@ -56,8 +58,11 @@ def resolution(contour: Contour) -> Resolution:
     >>> resolution(Contour(shaken, closed=True)).clean
     False
     """
-    noise = noise_level(contour)
-    step = median(np.diff(contour.arc_length))
+    noise, of_vertices = scatter(contour)
+    steps = np.diff(contour.arc_length)
+    if of_vertices:
+        return Resolution(noise, VERTEX_PART * float(steps.min()), True)
+    step = median(steps)
     least, most = (part * contour.box_diagonal for part in BOX_PARTS)
     floor = min(max(SAMPLING_PART * step, least), most)
     known = contour.accuracy or 0.0

@@ -13,6 +13,7 @@ from shapespline.analysis import bends_evenly_but_in_corners
 from shapespline.engines.pieces import (
     TOLERANCE_FACTORS,
     chords_found,
+    drawn_straight,
     in_facets,
 )
 from shapespline.fitting.arcs import LinesAndArcs
@@ -205,4 +206,4 @@ def _one_spline_may_be_better(problem: Problem, in_pieces: Verified) -> bool:
         return not request.style.names_corners and in_facets(pieces, problem.contour.closed)
     if request.style.free:
         return True
-    return not any(problem.data_beside.are_straight(piece, problem.tolerance) for piece in pieces)
+    return not any(drawn_straight(piece, problem.drawn, problem.tolerance) for piece in pieces)

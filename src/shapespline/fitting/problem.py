@@ -9,8 +9,9 @@ import numpy as np
 
 from shapespline.analysis import NormalizedContour, filled, has_straight_runs
 from shapespline.engines.drawn import as_drawn
-from shapespline.engines.pieces import DataBeside, PiecesProblem
+from shapespline.engines.pieces import PiecesProblem
 from shapespline.errors import InvalidInputError
+from shapespline.geometry import PointsByX
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn import Drawn
@@ -116,6 +117,6 @@ class Problem:
         return not (len(self.pieces.corners) or self.has_straight_runs)
 
     @cached_property
-    def data_beside(self) -> DataBeside:
+    def drawn(self) -> PointsByX:
         """The data as they came, with points along edges that were drawn as lines."""
-        return DataBeside.of(filled(self._dense))
+        return PointsByX.of(filled(self._dense).points)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline.engines.pieces import drawn_straight
 from shapespline.fitting.piece_runs import runs_of
 from shapespline.fitting.smooth import as_piece, one_spline
 from shapespline.fitting.strategies import SMOOTHED, OneSpline
@@ -96,12 +97,12 @@ class SmoothInstead:
 def _any_straight(run: Run, problem: Problem) -> bool:
     """Whether a piece of a run was drawn as a line; of a picture's points few are enough."""
     longest = np.inf
-    if problem.contour.accuracy is not None:
+    if problem.contour.accuracy:
         longest = LONG_CHORD * median(np.hypot(*np.diff(run.points, axis=0).T))
     for piece in run.pieces:
         side = piece.control_points[-1] - piece.control_points[0]
         is_long = piece.degree == 1 and np.hypot(*side) > longest
-        if is_long or problem.data_beside.are_straight(piece, problem.tolerance):
+        if is_long or drawn_straight(piece, problem.drawn, problem.tolerance):
             return True
     return False
 

@@ -24,12 +24,11 @@ from shapespline.geometry.moving import (
     transformed_drawing,
     transformed_fit,
 )
-from shapespline.geometry.nearest import nearest, nondecreasing
+from shapespline.geometry.nearest import PointsByX, nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
 from shapespline.geometry.normal_motion import curve_motion, unit_normals
 from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
-from shapespline.geometry.points_by_x import PointsByX
 from shapespline.geometry.polygons import Drawable, as_drawing, polygon_drawing, polyline_curve
 from shapespline.geometry.reversal import backwards, reversed_curve
 from shapespline.geometry.scaling import in_unit, scaled

@@ -32,7 +32,8 @@ def sampled(spline: BSplineCurve, sampling: float | None = None) -> tuple[Contou
     1e-4 of the box diagonal when none is given, and never more than 1e-2 of it.
     """
     points, parameters = chords(spline, sampling)
-    contour = Contour.silently(points, closed=bool((points[0] == points[-1]).all()))
+    closed = bool((points[0] == points[-1]).all())
+    contour = Contour.silently(points, closed, accuracy=0.0)
     first = np.unique(contour.source, return_index=True)[1]
     return contour, parameters[first]
 

@@ -133,7 +133,8 @@ class Contour(ByValue, Shown, Exchanged):
         not given.
     accuracy : float, optional
         Standard deviation of the points across the outline that their source is known to have,
-        data units; a picture's pixels set it. Estimation does not look for finer detail.
+        data units; a picture's pixels set it. Estimation does not look for finer detail. 0 for
+        points that are exact, such as those of a drawing: none of them is taken for noise.
     level_line : array_like, shape (k, 2), optional
         Of an outline that was read from the grey of a picture, the line at half grey that it
         stands for: what the picture shows before anything is mended.

@@ -13,7 +13,7 @@ from tests.support.reference import EPS
 from tests.support.shapes import random_curve
 
 from shapespline.errors import InvalidInputError
-from shapespline.geometry.nearest import nearest, nondecreasing
+from shapespline.geometry.nearest import PointsByX, nearest, nondecreasing
 from shapespline.values.curve import BSplineCurve
 
 
@@ -182,3 +182,20 @@ def test_a_piece_that_turns_back_beside_its_end_has_no_foot_there_alone(step):
     x = np.linspace(0, 2.3, 20)[::step]
     found = nearest(curve, np.column_stack([x, 0 * x]))
     assert np.sqrt(found.distances_sq.max()) < 1e-4
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_nearest_of_points_is_the_first_of_all_as_near(seed):
+    rng = np.random.default_rng(seed)
+    # On a lattice many are as near; far beside it none of the first looked at is.
+    points = rng.integers(0, 12, (300, 2)).astype(float)
+    among = PointsByX.of(points)
+    for place in [*rng.uniform(-5, 17, (40, 2)), *points[:10]]:
+        far = np.hypot(*(points - place).T)
+        assert among.nearest(place) == (int(far.argmin()), float(far.min()))
+
+
+def test_points_between_are_in_their_order():
+    points = np.random.default_rng(0).uniform(0, 1, (50, 2))
+    found = PointsByX.of(points).between(0.2, 0.7)
+    assert (found == points[(points[:, 0] >= 0.2) & (points[:, 0] <= 0.7)]).all()

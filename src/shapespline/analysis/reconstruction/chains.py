@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import atan2, pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,14 @@ if TYPE_CHECKING:
 
 # Ends of chains are joined if they are no farther apart than this many of the steps beside them.
 GAP = 3.0
+# So many points tell the step around a point, and so many where steps scatter.
+AROUND, WIDELY = 8, 32
+# Of fewer steps nobody knows how they scatter; one outline of so many has a longer one than those
+# that are joined across (ANA-20).
+FEWEST_STEPS, RARELY = 16, 1000.0
+# Chains of fewer points are no rings, nor those whose ends are farther apart than this part of
+# their length (ANA-20).
+FEWEST_OF_RING, SHORT_GAP = 4, 0.4
 # Nearest neighbours asked for beside the triangulation, which points on a line do not have.
 NEAREST = 6
 # An edge this many times longer than the median step of both its ends' surroundings is no step.
@@ -111,7 +119,7 @@ def linked(points: FloatArray) -> Links:
     """Chains through points, from the shortest edge on: what neighbours alone tell."""
     links = Links(points)
     edges, lengths = _candidates(points)
-    scale = _scale(points)
+    scale = _scale(points, AROUND)
     for (a, b), length in zip(edges.tolist(), lengths.tolist(), strict=True):
         if length > LONGEST * max(scale[a], scale[b]):
             continue
@@ -148,11 +156,11 @@ def _candidates(points: FloatArray) -> tuple[IntArray, FloatArray]:
     return edges[order], lengths[order]
 
 
-def _scale(points: FloatArray) -> FloatArray:
+def _scale(points: FloatArray, around: int) -> FloatArray:
     """Local step: the median, around each point, of the distances to the second nearest."""
     from scipy.spatial import cKDTree
 
-    count = min(9, len(points))
+    count = min(1 + around, len(points))
     distances, near = cKDTree(points).query(points, k=count)
     second = distances[:, min(2, count - 1)]
     return np.median(second[near], axis=1)
@@ -165,7 +173,7 @@ def _insert_stragglers(links: Links) -> None:
     alone = [i for i, own in enumerate(links.neighbours) if not own]
     if not alone or len(alone) == len(links.neighbours):
         return
-    scale = _scale(links.points)
+    scale = _scale(links.points, AROUND)
     tree = cKDTree(links.points)
     for index in alone:
         if links.neighbours[index]:
@@ -234,21 +242,56 @@ def _exchanged(links: Links, a: int, b: int, candidates: list[int]) -> set[int]:
     return {a, b, *chosen}
 
 
+def _longest_by_chance(all_steps: list[FloatArray]) -> float:
+    """The longest of steps that scatter as those of some chains do, in medians of them.
+
+    Logarithms of neighbours tell the shape of Weibull's distribution, of which even steps are one
+    end and points at random on a curve (exponential steps) another; the chains themselves end at
+    long steps, and the mean would miss those. One outline of a thousand has a longer one.
+    """
+    steps = [row[row > 0] for row in all_steps]
+    ratios = np.concatenate([np.diff(np.log(row)) for row in steps])
+    if len(ratios) < FEWEST_STEPS:
+        return 0.0
+    inverse_shape = float(np.sqrt(3.0 * np.mean(ratios**2))) / np.pi
+    n_steps = sum(len(row) for row in steps)
+    return float((np.log(RARELY * n_steps) / np.log(2.0)) ** min(inverse_shape, 1.0))
+
+
+class _Chain(NamedTuple):
+    """A chain as its ends know it: its ends, its length, its median step and how many points."""
+
+    ends: tuple[int, int]
+    length: float
+    typical: float
+    n_points: int
+
+    def joined(self, other: _Chain, a: int, b: int, gap: float) -> _Chain:
+        """With another one, end a to its end b."""
+        ends = (self.ends[self.ends[0] == a], other.ends[other.ends[0] == b])
+        length, n_points = self.length + gap + other.length, self.n_points + other.n_points
+        return _Chain(ends, length, min(self.typical, other.typical), n_points)
+
+
 def _join_ends(links: Links) -> None:
-    """Join ends of chains, the nearest first, across gaps of a few steps; rings close last."""
+    """Join ends of chains, the nearest first, across gaps of a few steps, or as long as by chance.
+
+    A chain is closed across a gap that is short for its own length.
+    """
     from scipy.spatial import cKDTree
 
     ends = [i for i, own in enumerate(links.neighbours) if len(own) == 1]
     if len(ends) < 2:
         return
-    typical = {}
-    of = {}
-    for number, chain in enumerate(links.chains()):
-        path = links.points[chain]
-        steps = np.hypot(*np.diff(path, axis=0).T)
-        for end in (chain[0], chain[-1]):
-            typical[end] = float(np.median(steps)) if len(steps) else 0.0
-            of[end] = (number, len(chain))
+    of: dict[int, _Chain] = {}
+    chains = links.chains()
+    all_steps = [np.hypot(*np.diff(links.points[chain], axis=0).T) for chain in chains]
+    for chain, steps in zip(chains, all_steps, strict=True):
+        if len(steps):
+            tips = (chain[0], chain[-1])
+            made = _Chain(tips, float(steps.sum()), float(np.median(steps)), len(chain))
+            of.update(dict.fromkeys(tips, made))
+    scale, longest = _scale(links.points, WIDELY), _longest_by_chance(all_steps)
     tree = cKDTree(links.points[ends])
     distances, near = tree.query(links.points[ends], k=min(8, len(ends)))
     pairs = sorted(
@@ -259,12 +302,17 @@ def _join_ends(links: Links) -> None:
             if ends[i] != ends[k]
         }
     )
-    for length, a, b in pairs:
+    for gap, a, b in pairs:
         if len(links.neighbours[a]) != 1 or len(links.neighbours[b]) != 1:
             continue
-        if of[a][0] == of[b][0] and of[a][1] < 4:
+        one, other = of[a], of[b]
+        closes = one.ends in ((a, b), (b, a))
+        if closes and (one.n_points < FEWEST_OF_RING or gap > SHORT_GAP * one.length):
             continue
-        reach = GAP * max(links.step(a), links.step(b), min(typical[a], typical[b]))
-        if length <= reach:
+        reach = GAP * max(links.step(a), links.step(b), min(one.typical, other.typical))
+        if gap <= max(reach, longest * min(scale[a], scale[b])):
             links.neighbours[a].append(b)
             links.neighbours[b].append(a)
+            if not closes:
+                made = one.joined(other, a, b, gap)
+                of.update(dict.fromkeys(made.ends, made))

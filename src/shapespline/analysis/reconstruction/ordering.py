@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline.analysis.drawn_vertices import are_drawn_vertices
 from shapespline.analysis.reconstruction.chains import Links, complete, linked
 from shapespline.errors import InvalidInputError, OrderError
 from shapespline.geometry import parents_of
@@ -152,7 +153,11 @@ def looks_shuffled(contour: Contour) -> bool:
     from scipy.spatial import cKDTree
 
     nearest = cKDTree(contour.points).query(contour.points, k=2)[0][:, 1]
-    return bool(np.median(np.diff(contour.arc_length)) > FAR * np.median(nearest))
+    step = float(np.median(np.diff(contour.arc_length)))
+    # Teeth of a comb are long, too, but alike.
+    return bool(step > FAR * np.median(nearest)) and not are_drawn_vertices(
+        contour.points, contour.closed, step
+    )
 
 
 def _ordering(points: FloatArray, first: IntArray, links: Links, closed: bool | None) -> Ordering:

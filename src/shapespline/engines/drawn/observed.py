@@ -76,8 +76,10 @@ class Observed:
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
             return cls(points, closed, deviation, accuracy, floor, step)
         extent = float(np.ptp(points, axis=0).max())
-        # What they are said to be accurate to does not make lines of smooth points.
-        deviation = max(noise_level(Contour.trusted(points, closed)), LAST_DIGIT * extent)
+        # What they are said to be accurate to does not make lines of smooth points, unless they
+        # are exact.
+        exact = 0.0 if contour.accuracy == 0 else None
+        deviation = max(noise_level(Contour.trusted(points, closed, exact)), LAST_DIGIT * extent)
         k = neighbours_to_average(points, closed, deviation)
         every = len(points) // (max(k, 1) * MOST_POINTS)
         if k == 1 and every > 1:

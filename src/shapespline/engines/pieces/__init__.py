@@ -1,7 +1,6 @@
 """The pieces engine: lines, Beziers and small splines between nodes."""
 
 from shapespline.engines.pieces.constraints import Constraints, pinned_exactly
-from shapespline.engines.pieces.data_beside import DataBeside
 from shapespline.engines.pieces.end_tangents import with_ends_turned
 from shapespline.engines.pieces.engine import (
     PIECE_DEGREE,
@@ -11,6 +10,7 @@ from shapespline.engines.pieces.engine import (
 )
 from shapespline.engines.pieces.fallbacks import (
     chords_found,
+    drawn_straight,
     drawn_with_lines,
     in_facets,
     search_lines,
@@ -25,10 +25,10 @@ __all__ = [
     "PIECE_DEGREE",
     "TOLERANCE_FACTORS",
     "Constraints",
-    "DataBeside",
     "MirroredHalf",
     "PiecesProblem",
     "chords_found",
+    "drawn_straight",
     "drawn_with_lines",
     "fit_observed",
     "in_data",

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.analysis import LEAST_TURN
+from shapespline.analysis import FEWEST_STRAIGHT, LEAST_TURN, STRAIGHT_PART
 from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, without_degenerate
-from shapespline.geometry import turn_between
+from shapespline.geometry import PointsByX, turn_between
 from shapespline.monitor import Monitor
 from shapespline.values import Piece
 
@@ -86,3 +86,20 @@ def in_facets(pieces: Sequence[Piece], closed: bool) -> bool:
     turns = np.abs(list(turns_of(pieces, closed)))
     n_low = np.count_nonzero(turns < LEAST_TURN)
     return bool(len(turns) and n_low >= FACETS_PART * len(turns))
+
+
+def drawn_straight(piece: Piece, points: PointsByX, tolerance: float) -> bool:
+    """Whether the data along a line are straight themselves, by far more than the tolerance."""
+    if piece.degree > 1:
+        return False
+    begin, side = piece.control_points[0], np.diff(piece.control_points, axis=0)[0]
+    length = float(np.hypot(*side))
+    low, high = sorted(piece.control_points[:, 0].tolist())
+    near = points.between(low - tolerance, high + tolerance) - begin
+    along, across = near @ side / length**2, near @ np.array([-side[1], side[0]]) / length
+    beside = (np.abs(along - 0.5) < 0.4) & (np.abs(across) <= tolerance)
+    if np.count_nonzero(beside) < FEWEST_STRAIGHT:
+        return False
+    # They may lie on another line, within the tolerance.
+    tilt = np.polynomial.Polynomial.fit(along[beside], across[beside], 1)
+    return float(np.ptp(across[beside] - tilt(along[beside]))) <= STRAIGHT_PART * tolerance

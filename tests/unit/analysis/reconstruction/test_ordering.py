@@ -8,6 +8,7 @@ import warnings
 import numpy as np
 import pytest
 from tests.support.shapes import flower, on_circle
+from tests.support.toothed import comb
 
 import shapespline as ss
 from shapespline.analysis.reconstruction.ordering import looks_shuffled
@@ -160,3 +161,27 @@ def test_reading_unordered_points(tmp_path):
         (contour,) = ss.read(tmp_path / name, unordered=True)
         assert contour.closed
         assert contour.length == pytest.approx(200 * 10 * np.sin(np.pi / 100), rel=1e-9)
+
+
+@pytest.mark.parametrize("count", [300, 1000, 3000])
+@pytest.mark.parametrize("seed", [0, 1, 4])
+def test_points_at_random_places_of_a_curve_stay_together(count, seed):
+    """Steps are exponential: of 3000 some are ten times the median."""
+    angle = np.random.default_rng(seed).uniform(0, 2 * np.pi, count)
+    ring = np.column_stack([np.cos(angle), 0.6 * np.sin(angle)])
+    found = ss.order_points(ring)
+    assert len(found.shape) == 1
+    assert len(found.shape.longest) >= count - 2  # of two at one place one may be left out
+    around = np.unwrap(np.arctan2(*(found.shape.longest.points / [1.0, 0.6]).T[::-1]))
+    steps = np.diff(around)
+    assert (steps > 0).all() or (steps < 0).all()
+
+
+def test_even_points_stay_open_across_a_gap():
+    angle = np.random.default_rng(1).permutation(np.linspace(0, 0.95 * 2 * np.pi, 300))
+    (contour,) = ss.order_points(np.column_stack([np.cos(angle), np.sin(angle)])).shape
+    assert not contour.closed
+
+
+def test_a_comb_is_in_order():
+    assert not looks_shuffled(ss.Contour(comb(20, 1.0, 30.0), closed=False))
