@@ -1,5 +1,6 @@
 """Analysis: what points tell before any fit."""
 
+from shapespline.analysis.between_points import with_points_between
 from shapespline.analysis.corners import LEAST_TURN, LOW_TURN, find_corners
 from shapespline.analysis.cpda import Cpda, bending, check_window, chord_to_point, local_maxima
 from shapespline.analysis.mirror import Mirror, find_mirror
@@ -83,4 +84,5 @@ __all__ = [
     "order_points",
     "resolution",
     "shared_arcs",
+    "with_points_between",
 ]

@@ -30,6 +30,8 @@ FEWEST_OF_CURVE = 24
 # Points bend evenly if cubics leave less than this part of what chords leave (PIE-30). So many are
 # one that its neighbours tell.
 EVEN_PART, FEWEST_TO_PREDICT = 0.65, 5
+# So many of the points are no corners.
+PREDICTED_PERCENT = 75.0
 # A cubic fitted to a window: its slope in the middle, and what is left of every point.
 _POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
 _FIT = np.linalg.pinv(_POWERS)
@@ -116,6 +118,31 @@ def largest_bulge(contour: Contour) -> float:
     return bulge if rest < bulge else 0.0
 
 
+def left_out(contour: Contour) -> float:
+    """How far from the outline three of four points are at most if their neighbours tell them.
+
+    A cubic in the index through two neighbours on either side; across the outline, data units.
+    Infinite for fewer than five points.
+
+    Examples
+    --------
+    >>> t = 2 * np.pi * np.arange(60) / 60
+    >>> circle = Contour(np.column_stack([np.cos(t), np.sin(t)]), closed=True)
+    >>> bool(left_out(circle) < 1e-4)
+    True
+    """
+    points = contour.points
+    if len(points) < FEWEST_TO_PREDICT:
+        return np.inf
+    if contour.closed:
+        points = np.concatenate([points[-2:], points, points[:2]])
+    cubic, _ = left_of(points)
+    along = points[3:-1] - points[1:-3]
+    lengths = np.maximum(np.hypot(*along.T), np.finfo(float).tiny)
+    across = np.abs(cubic[:, 0] * along[:, 1] - cubic[:, 1] * along[:, 0]) / (2.0 * lengths)
+    return float(np.percentile(across, PREDICTED_PERCENT))
+
+
 def bends_evenly(points: FloatArray) -> bool:
     """Whether a row of points bends as a smooth curve does, rather than corners and noise.
 
@@ -132,7 +159,7 @@ def bends_evenly(points: FloatArray) -> bool:
     """
     if len(points) < FEWEST_TO_PREDICT:
         return False
-    cubic, chord = _left(points)
+    cubic, chord = left_of(points)
     return float((cubic**2).sum()) < EVEN_PART**2 * float((chord**2).sum())
 
 
@@ -148,11 +175,11 @@ def bends_evenly_but_in_corners(points: FloatArray) -> bool:
     """
     if len(points) < FEWEST_TO_PREDICT:
         return False
-    cubic, chord = (median((left**2).sum(axis=1)) for left in _left(points))
+    cubic, chord = (median((left**2).sum(axis=1)) for left in left_of(points))
     return cubic < EVEN_PART**2 * chord
 
 
-def _left(points: FloatArray) -> tuple[FloatArray, FloatArray]:
+def left_of(points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """What cubics and chords leave of each point but two at both ends, shape (n - 4, 2)."""
     a, b, c, d, e = (points[k : len(points) - 4 + k] for k in range(5))
     return (a - 4 * b + 6 * c - 4 * d + e) / 3, b - 2 * c + d

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.analysis.noise import scatter
+from shapespline.analysis.noise import left_out, scatter
 from shapespline.validation import median
 
 if TYPE_CHECKING:
@@ -18,6 +18,12 @@ if TYPE_CHECKING:
 # points; the length lies within these parts of the box diagonal.
 SAMPLING_PART = 0.1
 BOX_PARTS = (0.0005, 0.001)
+# What clean points tell of each other is not known to less than this part of the box diagonal
+# (FIT-36).
+LEAST_PART, TOLD_BAND = 0.0001, 3.0
+# What lies between points is known 16 times as well as points that are left out; a quarter of that
+# allows for places that bend more (FIT-36).
+TOLD_PART = 0.25
 # Of vertices that were drawn none is left out: the band is this part of the shortest edge.
 VERTEX_PART = 0.01
 # A band about the data is so many standard deviations wide. Noise that the source knows, a
@@ -36,12 +42,14 @@ class Resolution(NamedTuple):
 
     ``noise`` is the standard deviation across the outline; ``band`` a distance within which every
     point lies of the outline behind them; ``clean`` whether the sampling or the source sets it,
-    and not the noise.
+    and not the noise; ``told`` a distance within which clean points tell each other, and so what
+    lies between them, where that is less than the band.
     """
 
     noise: float
     band: float
     clean: bool
+    told: float = np.inf
 
 
 def resolution(contour: Contour) -> Resolution:
@@ -69,7 +77,10 @@ def resolution(contour: Contour) -> Resolution:
     if noise <= known:
         return Resolution(noise, max(floor, ACCURACY_BAND * known), True)
     band = max(floor, NOISE_BAND * noise)
-    return Resolution(noise, band, band == floor)
+    if band > floor:
+        return Resolution(noise, band, False)
+    told = max(LEAST_PART * contour.box_diagonal, TOLD_BAND * noise, TOLD_PART * left_out(contour))
+    return Resolution(noise, band, True, min(band, told))
 
 
 def means_of(points: FloatArray, width: int) -> FloatArray:

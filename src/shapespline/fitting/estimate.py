@@ -37,9 +37,8 @@ from shapespline.engines.least_squares import (
 )
 from shapespline.engines.pieces import PIECE_DEGREE, fit_observed, pinned_exactly
 from shapespline.errors import DegenerateContourError
-from shapespline.fitting.goals import Estimate, Within
+from shapespline.fitting.goals import Estimate
 from shapespline.fitting.means import Means
-from shapespline.fitting.problem import Problem
 from shapespline.fitting.runs import KeptCorners, Runs
 from shapespline.fitting.settings import DEFAULT_METHOD
 from shapespline.fitting.strategies import measured_candidate, summed
@@ -50,7 +49,8 @@ from shapespline.values import CORNER_TURN, Contour
 if TYPE_CHECKING:
     from shapespline.analysis import Resolution
     from shapespline.engines.least_squares import Balanced, Minimized, Smoothed
-    from shapespline.fitting.strategies import Ask, Proposals
+    from shapespline.fitting.problem import Problem
+    from shapespline.fitting.strategies import Proposals
     from shapespline.monitor import Monitor
     from shapespline.typing import FloatArray
     from shapespline.values import Piece
@@ -371,20 +371,3 @@ def _candidate(problem: Problem, found: Minimized) -> Candidate:
     return Candidate(
         method=_method(problem), spline=found.spline, run=found.run, history=found.history
     )
-
-
-@dataclass(frozen=True)
-class InBand:
-    """The smallest curve within what clean points can show."""
-
-    band: float
-    ask: Ask
-
-    def propose(self, problem: Problem, monitor: Monitor) -> Proposals:
-        """One curve."""
-        request = replace(problem.request, goal=Within(self.band))
-        if request.style.character == "drawn" and problem.lines_and_arcs is None:
-            # Nor is anything drawn within a tolerance where nothing is without one (DRA-32).
-            request = replace(request, style=replace(request.style, character="fewest"))
-        found = self.ask(Problem(request), monitor).fit
-        yield Candidate(method=found.method, pieces=found.sections, spline=found.spline)

@@ -21,13 +21,13 @@ from shapespline.fitting.choose import DRAWN, ROUGH_PART
 from shapespline.fitting.drawn import DrawnPieces
 from shapespline.fitting.estimate import (
     Estimation,
-    InBand,
     MeasuredSpline,
     ObservedPieces,
     SmoothedSpline,
     WeightedSpline,
 )
 from shapespline.fitting.goals import Estimate, OfSize
+from shapespline.fitting.in_band import InBand
 from shapespline.fitting.smooth import SmoothRuns
 from shapespline.fitting.smooth_instead import SmoothInstead
 from shapespline.fitting.strategies import (
@@ -97,7 +97,7 @@ def _plan_estimate(
             yield SmoothedSpline(estimation)
     # Points that neither comes near are no noisy curve after all.
     if len(shortlist) == n_drawn:
-        yield InBand(estimation.shown.band, ask)
+        yield InBand(estimation, ask)
 
 
 def _plan_within(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[Strategy]:
