@@ -201,10 +201,11 @@ class KnotRemoval {
                n_crossings_ <= n_data_crossings_;
     }
     void measure_fairness() {
-        const StateCurves<Degree> all(state_);
+        shapes_.measure(state_);
+        const ShapeRow<Degree> all = shapes_.kept(state_, state_.all_spans());
         Box everywhere;
         for (const Vec2 p : state_.points) everywhere.include(p);
-        n_crossings_ = crossings(all, everywhere);
+        n_crossings_ = crossings(all, everywhere, flatness());
         median_ = median_speed(all);
         slowest_ = slowest_speed(all, settings_.fairness.speed_ratio * median_) / median_;
         interval_ratio_ = interval_ratio(all);
@@ -235,50 +236,7 @@ class KnotRemoval {
         remove_knot(candidate_, r);
         double &merged = candidate_.intervals[candidate_.interval_index(r - 1)];
         merged = std::min(merged, settings_.fit.largest_interval);
-        return n_beside == 0 || redistribute(r - 1, n_beside);
-    }
-
-    // Redistributes the merged interval k over up to `reach` intervals on each side, in equal parts
-    // of the sequence that the intervals had with the merged one cut in two. False if there is none
-    // beside it.
-    bool redistribute(int k, int reach) {
-        SplineState<Degree> &s = candidate_;
-        const int m = s.n_points();
-        reach = s.closed ? std::min(reach, (m - 1) / 2) : reach;
-        int low = k, high = k;
-        while (k - low < reach && (s.closed || low - 1 >= Degree) && s.interval(low - 1) > 0.0)
-            --low;
-        while (high - k < reach && (s.closed || high + 1 < m) && s.interval(high + 1) > 0.0)
-            ++high;
-        if (low == high) return false;
-        const int count = high - low + 1;
-        std::vector<double> old{0.0}, breaks{0.0}, after{0.0};
-        for (int i = low; i <= high; ++i) {
-            breaks.push_back(breaks.back() + s.interval(i));
-            if (i == k) old.push_back(old.back() + 0.5 * s.interval(i));
-            old.push_back(breaks.back());
-        }
-        for (int i = 1; i < count; ++i) {
-            const double x = static_cast<double>(i) * (count + 1) / count;
-            const int cell = std::min(static_cast<int>(x), count);
-            after.push_back(old[cell] + (x - cell) * (old[cell + 1] - old[cell]));
-        }
-        after.push_back(old.back());
-        for (int j = s.first_data(low), end = s.first_data(high + 1); j < end; ++j) {
-            const int turn = s.closed ? floor_div(j, s.n_data()) : 0;
-            const int at = j - turn * s.n_data(), local = s.span_of(j) - low;
-            const double t = breaks[local] + 0.5 * (s.local_parameter[at] + 1.0) *
-                                                 (breaks[local + 1] - breaks[local]);
-            const auto next = std::upper_bound(after.begin(), after.end(), t);
-            const int cell = std::clamp(static_cast<int>(next - after.begin()) - 1, 0, count - 1);
-            s.span[at] = cell + low - turn * m;
-            s.local_parameter[at] = std::clamp(
-                2.0 * (t - after[cell]) / (after[cell + 1] - after[cell]) - 1.0, -1.0, 1.0);
-        }
-        for (int i = 0; i < count; ++i)
-            s.intervals[s.interval_index(low + i)] = after[i + 1] - after[i];
-        s.normalize();
-        return true;
+        return n_beside == 0 || redistribute(candidate_, r - 1, n_beside);
     }
 
     double fit_candidate(int r, const Effort &effort, const FitLimits &limits) {
@@ -318,25 +276,27 @@ class KnotRemoval {
     // Writes the window's curve into the candidate and proves both of its distances.
     bool accept_distance() {
         window_.write_back(candidate_);
-        const int first = window_.origin + window_.first_sampled;
-        const int last = window_.origin + window_.last_sampled;
-        return proof_.within(candidate_, search_, data_, first, last,
+        const auto [first, end] = window_.sampled_spans();
+        return proof_.within(candidate_, search_, data_, first, end - 1,
                              settings_.accept * settings_.fit.tolerance);
     }
 
     // Of the candidate, the window first. What the start could not keep must not become worse.
     bool is_fair() {
         const double least = std::min(settings_.fairness.speed_ratio, slowest_);
-        const int first = window_.origin + window_.first_sampled;
-        const int last = window_.origin + window_.last_sampled;
-        const StateCurves<Degree> part(candidate_, first, last + 1);
+        const SpanRange window = window_.sampled_spans();
+        // Of a high degree intervals that are redistributed may shape a span beside the window.
+        const SpanRange changed = with_beside(candidate_, window);
+        shapes_.change(candidate_, changed);
+        const ShapeRow<Degree> part = shapes_.tried(candidate_, window);
         // The median changes little in one removal; what fails clearly needs no second look.
         if (slowest_speed(part, settings_.fairness.speed_ratio * median_) < 0.8 * least * median_) {
             ++counts_.missed_speed;
             return false;
         }
-        const StateCurves<Degree> all(candidate_);
-        if (interval_ratio(all) > std::max(settings_.fairness.interval_ratio, interval_ratio_)) {
+        const ShapeRow<Degree> all = shapes_.tried(candidate_, candidate_.all_spans());
+        const double ratio = interval_ratio(all);
+        if (ratio > std::max(settings_.fairness.interval_ratio, interval_ratio_)) {
             ++counts_.missed_intervals;
             return false;
         }
@@ -349,7 +309,10 @@ class KnotRemoval {
             ++counts_.missed_speed;
             return false;
         }
-        const long hooks = new_hooks(state_, candidate_, first, last, search_, turning_);
+        const SpanRange before = with_beside(state_, {window.begin, window.end + 1});
+        const long hooks =
+            count_hooks(candidate_, shapes_.tried(candidate_, changed), search_, turning_) -
+            count_hooks(state_, shapes_.kept(state_, before), search_, turning_);
         counts_.missed_hooks += hooks > 0;
         if (hooks > 0) return false;
         const int n_crossings = n_crossings_ + new_crossings(part, all);
@@ -360,30 +323,29 @@ class KnotRemoval {
         n_crossings_ = n_crossings;
         n_hooks_ += hooks;
         slowest_ = slowest;
-        interval_ratio_ = interval_ratio(all);
+        interval_ratio_ = ratio;
+        shapes_.accept();
         return true;
     }
     // Crossings that the candidate has more than the state, looked for where they differ: both lie
     // within the tolerance of the data.
-    int new_crossings(const StateCurves<Degree> &part, const StateCurves<Degree> &all) const {
+    int new_crossings(const ShapeRow<Degree> &part, const ShapeRow<Degree> &all) {
         Box box;
-        for (const auto &curve : part.curves)
-            for (const Vec2 p : curve.bezier().points) box.include(p);
+        for (const auto &[_, shape] : part) box.include(shape->hull);
         const Vec2 margin{2.0 * settings_.fit.tolerance, 2.0 * settings_.fit.tolerance};
         box.include(box.low - margin);
         box.include(box.high + margin);
-        const int before = n_crossings_ > 0 ? crossings(StateCurves<Degree>(state_), box) : 0;
-        return crossings(all, box) - before;
+        const int after = crossings(all, box, flatness());
+        if (n_crossings_ == 0) return after;
+        return after - crossings(shapes_.kept(state_, state_.all_spans()), box, flatness());
     }
-    int crossings(const StateCurves<Degree> &all, const Box &box) const {
-        const auto chords = flattened(all, kFlatness * settings_.fit.tolerance, box);
-        return count_crossings(std::span<const Chord>(chords));
-    }
+    double flatness() const { return kFlatness * settings_.fit.tolerance; }
 
     SplineSettings settings_;
     ArcPolyline data_, search_;
     Proof<Degree> proof_;
     SplineState<Degree> state_, candidate_;
+    SpanShapes<Degree> shapes_;
     bool from_polyline_ = false;
     int n_data_crossings_ = 0, n_crossings_ = 0;
     TurningSteps turning_;

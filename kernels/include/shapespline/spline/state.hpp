@@ -21,6 +21,11 @@ namespace shapespline::spline {
 inline int floor_div(int a, int b) { return a / b - (a % b < 0 ? 1 : 0); }
 inline int wrap(int a, int b) { return a - b * floor_div(a, b); }
 
+// Spans begin .. end - 1, unwrapped.
+struct SpanRange {
+    int begin, end;
+};
+
 template <int Degree>
 struct SplineState {
     bool closed = false;
@@ -32,7 +37,7 @@ struct SplineState {
 
     int n_points() const { return static_cast<int>(points.size()); }
     int n_data() const { return static_cast<int>(span.size()); }
-    int first_span() const { return closed ? 0 : Degree; }
+    SpanRange all_spans() const { return {closed ? 0 : Degree, n_points()}; }
     int interval_index(int k) const { return closed ? wrap(k, n_points()) : k; }
     double interval(int k) const { return intervals[interval_index(k)]; }
     Vec2 point(int i) const { return points[closed ? wrap(i, n_points()) : i]; }
@@ -122,6 +127,49 @@ void remove_knot(SplineState<Degree> &state, int r) {
     state.knot_ids = std::move(ids);
     state.points = std::move(points);
     state.normalize();
+}
+
+// Redistributes the merged interval k over up to `reach` intervals on each side, in equal parts
+// of the sequence that the intervals had with the merged one cut in two. False if there is none
+// beside it.
+template <int Degree>
+bool redistribute(SplineState<Degree> &s, int k, int reach) {
+    const int m = s.n_points();
+    reach = s.closed ? std::min(reach, (m - 1) / 2) : reach;
+    int low = k, high = k;
+    while (k - low < reach && (s.closed || low - 1 >= Degree) && s.interval(low - 1) > 0.0)
+        --low;
+    while (high - k < reach && (s.closed || high + 1 < m) && s.interval(high + 1) > 0.0)
+        ++high;
+    if (low == high) return false;
+    const int count = high - low + 1;
+    std::vector<double> old{0.0}, breaks{0.0}, after{0.0};
+    for (int i = low; i <= high; ++i) {
+        breaks.push_back(breaks.back() + s.interval(i));
+        if (i == k) old.push_back(old.back() + 0.5 * s.interval(i));
+        old.push_back(breaks.back());
+    }
+    for (int i = 1; i < count; ++i) {
+        const double x = static_cast<double>(i) * (count + 1) / count;
+        const int cell = std::min(static_cast<int>(x), count);
+        after.push_back(old[cell] + (x - cell) * (old[cell + 1] - old[cell]));
+    }
+    after.push_back(old.back());
+    for (int j = s.first_data(low), end = s.first_data(high + 1); j < end; ++j) {
+        const int turn = s.closed ? floor_div(j, s.n_data()) : 0;
+        const int at = j - turn * s.n_data(), local = s.span_of(j) - low;
+        const double t = breaks[local] + 0.5 * (s.local_parameter[at] + 1.0) *
+                                             (breaks[local + 1] - breaks[local]);
+        const auto next = std::upper_bound(after.begin(), after.end(), t);
+        const int cell = std::clamp(static_cast<int>(next - after.begin()) - 1, 0, count - 1);
+        s.span[at] = cell + low - turn * m;
+        s.local_parameter[at] = std::clamp(
+            2.0 * (t - after[cell]) / (after[cell + 1] - after[cell]) - 1.0, -1.0, 1.0);
+    }
+    for (int i = 0; i < count; ++i)
+        s.intervals[s.interval_index(low + i)] = after[i + 1] - after[i];
+    s.normalize();
+    return true;
 }
 
 // Splits span k, a state index, at local parameter u; the curve stays the same (Boehm 1980).

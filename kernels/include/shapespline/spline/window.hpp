@@ -54,6 +54,7 @@ struct Window {
 
     int n_data() const { return static_cast<int>(data.size()); }
     int n_points() const { return static_cast<int>(curve.points.size()); }
+    SpanRange sampled_spans() const { return {origin + first_sampled, origin + last_sampled + 1}; }
 
     // n_side free control points on each side of where control point centre begins; all of a
     // small closed curve.
