@@ -88,44 +88,34 @@ int central_point(int r) {
     return r - (Degree + 1) / 2;
 }
 
-// Removes knot r, in [0, m): its two spans become one, one control point goes, the others stay as
-// they are (a start for a fit, not an approximation).
+// Removes knot r, in [0, m), which is removable: its two spans become one, one control point goes,
+// the others stay as they are (a start for a fit, not an approximation).
 template <int Degree>
 void remove_knot(SplineState<Degree> &state, int r) {
     const int m = state.n_points(), c = central_point<Degree>(r);
     const double before = state.interval(r - 1), after = state.interval(r), merged = before + after;
-    for (int j = 0; j < state.n_data(); ++j) {
-        int &span = state.span[j];
-        double &local_parameter = state.local_parameter[j];
-        const int offset = state.closed ? wrap(span - r, m) : span - r;  // m - 1 is span r - 1
-        if (merged > 0.0 && (offset == -1 || (state.closed && offset == m - 1)))
-            local_parameter = (local_parameter + 1.0) * before / merged - 1.0;
-        else if (merged > 0.0 && offset == 0)
-            local_parameter = (2.0 * before + (local_parameter + 1.0) * after) / merged - 1.0;
-        if (state.closed)
-            span -= floor_div(span - r, m) + 1;
-        else if (span >= r)
-            --span;
+    for (int j = state.first_data(r - 1), end = state.first_data(r + 1); j < end; ++j) {
+        double &local = state.local_parameter[state.closed ? wrap(j, state.n_data()) : j];
+        if (state.span_of(j) < r)
+            local = (local + 1.0) * before / merged - 1.0;
+        else
+            local = (2.0 * before + (local + 1.0) * after) / merged - 1.0;
+    }
+    // Spans do not decrease along the data: how often r has passed need not be divided for.
+    int passed = 1 + floor_div(state.span[0] - r, m), next = r + passed * m;
+    for (auto at = state.span.begin(); at != state.span.end(); ++passed, next += m) {
+        const auto end = std::lower_bound(at, state.span.end(), next);
+        for (; at != end; ++at) *at -= passed;
     }
     state.intervals[state.interval_index(r - 1)] = merged;
-    if (!state.closed) {
-        state.intervals.erase(state.intervals.begin() + r);
-        state.knot_ids.erase(state.knot_ids.begin() + r);
+    state.intervals.erase(state.intervals.begin() + r);
+    state.knot_ids.erase(state.knot_ids.begin() + r);
+    if (c >= 0) {
         state.points.erase(state.points.begin() + c);
-        return;
+    } else {  // a point of the turn before: those after it, 0 too, are one less
+        state.points.erase(state.points.begin() + m + c);
+        std::rotate(state.points.begin(), state.points.begin() + 1, state.points.end());
     }
-    const SplineState<Degree> &old = state;
-    std::vector<double> intervals(m - 1);
-    std::vector<int> ids(m - 1);
-    std::vector<Vec2> points(m - 1);
-    for (int i = r - m + 1; i < r; ++i) {
-        intervals[wrap(i, m - 1)] = old.intervals[wrap(i, m)];
-        ids[wrap(i, m - 1)] = old.knot_ids[wrap(i, m)];
-    }
-    for (int i = c - m + 1; i < c; ++i) points[wrap(i, m - 1)] = old.points[wrap(i, m)];
-    state.intervals = std::move(intervals);
-    state.knot_ids = std::move(ids);
-    state.points = std::move(points);
     state.normalize();
 }
 
@@ -186,42 +176,25 @@ void insert_knot(SplineState<Degree> &state, int k, double u, int id) {
         const double share = (t - low) / (high - low);
         blended[l] = share * state.point(i) + (1.0 - share) * state.point(i - 1);
     }
+    int turn = floor_div(state.span[0] - k, m), at = k + turn * m;  // the last one of span k
     for (int j = 0; j < state.n_data(); ++j) {
         int &span = state.span[j];
         double &local_parameter = state.local_parameter[j];
-        const int turn = state.closed ? floor_div(span - k, m) : 0;
-        const int offset = span - k - turn * m;
-        bool after = offset > 0;
-        if (offset == 0) {
+        for (; span >= at + m; at += m) ++turn;
+        bool after = span > at;
+        if (span == at) {
             after = local_parameter >= u;
             local_parameter = after ? 2.0 * (local_parameter - u) / (1.0 - u) - 1.0
                           : 2.0 * (local_parameter + 1.0) / (u + 1.0) - 1.0;
         }
         span += turn + (after ? 1 : 0);
     }
-    if (!state.closed) {
-        state.intervals[k] = t;
-        state.intervals.insert(state.intervals.begin() + k + 1, width - t);
-        state.knot_ids.insert(state.knot_ids.begin() + k + 1, id);
-        state.points.insert(state.points.begin() + k, Vec2{});
-        std::copy(blended.begin(), blended.end(), state.points.begin() + k - Degree + 1);
-        return;
-    }
-    const SplineState<Degree> &old = state;
-    std::vector<double> intervals(m + 1);
-    std::vector<int> ids(m + 1);
-    std::vector<Vec2> points(m + 1);
-    for (int i = k; i <= k + m; ++i) {
-        const int source = wrap(i > k ? i - 1 : i, m);
-        intervals[wrap(i, m + 1)] = i == k ? t : i == k + 1 ? width - t : old.intervals[source];
-        ids[wrap(i, m + 1)] = i == k + 1 ? id : old.knot_ids[source];
-    }
-    for (int i = k - Degree + 1; i <= k - Degree + 1 + m; ++i)
-        points[wrap(i, m + 1)] =
-            i <= k ? blended[i - (k - Degree + 1)] : old.points[wrap(i - 1, m)];
-    state.intervals = std::move(intervals);
-    state.knot_ids = std::move(ids);
-    state.points = std::move(points);
+    state.intervals[k] = t;
+    state.intervals.insert(state.intervals.begin() + k + 1, width - t);
+    state.knot_ids.insert(state.knot_ids.begin() + k + 1, id);
+    state.points.insert(state.points.begin() + k, Vec2{});
+    for (int l = 0; l < Degree; ++l)
+        state.points[wrap(k - Degree + 1 + l, m + 1)] = blended[l];
     state.normalize();
 }
 
