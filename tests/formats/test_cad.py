@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from tests.support.make_fit import blob, fit_of, nested, wave
+from tests.support.pieces import bezier, square
 from tests.support.round_trip import round_trip
 
 import shapespline as ss
+from shapespline.geometry.exact import exact_fit
 from shapespline.values.drawing import Drawing
 
 rhino3dm = pytest.importorskip("rhino3dm", reason="needs shapespline[rhino]")
@@ -45,6 +47,36 @@ NAMES = ["ring", "wave", "nested", "degree 5", "square", "hand", "loop"]
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_round_trip(drawings, tmp_path, ending, name):
     round_trip(drawings[name], tmp_path / f"drawing.{ending}")
+
+
+@pytest.mark.parametrize("ending", [*ENDINGS, "dxf"])
+def test_areas_that_share_a_side_stay_areas(tmp_path, ending):
+    boxes = [exact_fit(square(10, at)) for at in [(0, 0), (10, 0), (5, 10)]]
+    within, path = exact_fit(square(2, (4, 4))), exact_fit([bezier((0, 0), (0, -5), (9, -9))])
+    drawing = Drawing([*boxes, within, path], [-1, -1, -1, 0, -1], unit="mm")
+    again = round_trip(drawing, tmp_path / f"drawing.{ending}")
+    assert again.area == pytest.approx(3 * 100 - 4)
+
+
+def test_sheets_that_share_an_edge_are_two_outlines(tmp_path):
+    """As programs write bodies: faces sewn together have one edge in common."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
+    from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
+
+    from shapespline.formats import occ
+
+    sewing = BRepBuilderAPI_Sewing()
+    for at in [(0, 0), (10, 0)]:
+        sewing.Add(occ.faces(Drawing([exact_fit(square(10, at))]), 1.0))
+    sewing.Perform()
+    path = tmp_path / "sheets.step"
+    writer = STEPControl_Writer()
+    writer.Transfer(sewing.SewedShape(), STEPControl_StepModelType.STEPControl_AsIs)
+    writer.Write(str(path))
+    assert path.read_text().count("EDGE_CURVE(") == 7
+    again = ss.read(path)
+    assert [fit.closed for fit in again] == [True, True]
+    assert again.area == pytest.approx(200)
 
 
 @pytest.mark.parametrize("ending", ["step", "iges"])

@@ -160,6 +160,31 @@ def test_entities_that_meet_become_outlines_and_nest(draw):
     assert len(drawing.fits[0].pieces) == 4
 
 
+def test_ends_of_other_programs_that_almost_meet(draw):
+    """Lines and polylines off by what rounding leaves, on a size of 85."""
+
+    def add(space):
+        corners = [(0, 0), (60, 0), (60, 60), (0, 60)]
+        for (x, y), (u, v) in zip(corners, corners[1:] + corners[:1], strict=True):
+            space.add_line((x, y), (u + 1e-6, v))
+        space.add_lwpolyline([(10, 10), (20, 10), (20, 20), (10 + 1e-7, 10 - 1e-7)])
+
+    drawing = draw(add)
+    assert [(fit.closed, len(fit.pieces)) for fit in drawing] == [(True, 4), (True, 3)]
+    assert drawing.area == pytest.approx(60**2 - 50, abs=1e-3)
+
+
+def test_what_is_drawn_twice_is_cut_once(draw):
+    def add(space):
+        for _ in range(2):
+            space.add_circle((5, 5), 2)
+            space.add_lwpolyline([(0, 0), (10, 0), (10, 10), (0, 10)], close=True)
+
+    with pytest.warns(SkippedContentWarning, match="drawing.dxf: 2 entities that repeat others"):
+        drawing = draw(add)
+    assert [fit.closed for fit in drawing] == [True, True]
+
+
 def test_two_outlines_that_share_a_corner_stay_two(draw):
     drawing = draw(
         lambda s: [s.add_lwpolyline([(x, 0), (x + 4, 0), (4, 4)], close=True) for x in (0, 4)]

@@ -50,7 +50,9 @@ def test_splines_are_the_same_curve(tmp_path, make, degree):
     curve = make(11, degree)
     entities = opened(tmp_path, Drawing([fit_of(curve)]))
     if degree == 1:
-        assert kinds(entities) == {"LINE": 11 if make is blob else 10}
+        assert kinds(entities) == {"LWPOLYLINE": 1}
+        assert entities[0].closed == (make is blob)
+        assert len(entities[0]) == 11
         return
     (spline,) = entities
     tool = spline.construction_tool()
@@ -78,6 +80,17 @@ def test_lines_splines_and_corners_are_entities_of_their_own(tmp_path):
     ends = [flattened(entity)[[0, -1]] for entity in entities]
     for before, after in zip(ends, ends[1:] + ends[:1], strict=True):
         assert np.abs(before[1] - after[0]).max() <= 1e-12
+
+
+def test_outlines_of_lines_are_polylines_and_one_line_a_line(tmp_path):
+    corners = [(0, 0), (4, 0), (4, 3), (0, 3)]
+    sides = [bezier(*ends) for ends in zip(corners, corners[1:] + corners[:1], strict=True)]
+    for pieces, closed in [(sides, True), (sides[:2], False)]:
+        (entity,) = opened(tmp_path, exact_drawing(Outlines([pieces])))
+        assert (entity.dxftype(), entity.closed) == ("LWPOLYLINE", closed)
+        assert len(entity) == (4 if closed else 3)
+    (entity,) = opened(tmp_path, exact_drawing(Outlines([sides[:1]])))
+    assert entity.dxftype() == "LINE"
 
 
 def test_degrees_that_are_asked_for(tmp_path):

@@ -88,7 +88,7 @@ def read(path: Path) -> Outlines:
     finite = [run for run in runs if _is_finite(run)]
     if len(finite) < len(runs):
         raise FormatError("a coordinate is not a finite number")
-    curves = chained(runs)
+    curves = chained(runs, path.name)
     if not curves:
         raise FormatError(
             "the model space holds no curve" + (f", only {', '.join(skipped)}" if skipped else "")

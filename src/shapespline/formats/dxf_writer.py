@@ -2,8 +2,8 @@
 
 Splines are what importers agree on: without weights, clamped, of degree 3, one entity from corner
 to corner, a smooth closed curve in its exact clamped form with the closed flag. Lines are lines and
-circles CIRCLE; an outline of lines and arcs is one LWPOLYLINE with bulges, an arc beside splines an
-ARC.
+circles CIRCLE; an outline of several lines and arcs is one LWPOLYLINE with bulges, so that it stays
+one where others meet it; an arc beside splines is an ARC.
 """
 
 from __future__ import annotations
@@ -160,13 +160,15 @@ def _add_splines(space: Modelspace, fit: Fit, degree: int) -> None:
 
 
 def _is_polyline(parts: Sequence[Entity]) -> bool:
-    """Whether an outline is lines and arcs, none of them so long that its chord tells little."""
+    """Whether an outline is lines and arcs, none of them so long that its chord tells little.
+
+    One line or one arc alone is none.
+    """
     arcs = [part.arc for part in parts if part.arc is not None]
     return (
-        len(arcs) > 0
-        and len(parts) > 1
-        and all(part.arc is not None or part.curve.degree == 1 for part in parts)
+        all(part.arc is not None or part.curve.degree == 1 for part in parts)
         and all(abs(arc.sweep) <= LARGEST_BULGE for arc in arcs)
+        and (len(parts) > 1 or not (arcs or parts[0].is_line))
     )
 
 

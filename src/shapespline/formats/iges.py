@@ -73,4 +73,4 @@ def read(path: Path) -> Outlines:
             raise FormatError("OpenCASCADE cannot read the IGES file: it is damaged")
         reader.TransferRoots()
         shape = reader.OneShape()
-    return occ.outlines(shape, unit="mm")
+    return occ.outlines(shape, "mm", path.name)

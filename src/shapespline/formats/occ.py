@@ -22,7 +22,7 @@ from shapespline.geometry import Outlines
 from shapespline.values import Arc, Piece
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from shapespline.formats.entities import Entity
     from shapespline.values import Drawing, Fit
@@ -141,26 +141,44 @@ def _geometry(part: Entity, scale: float) -> Any:
     return Geom_BSplineCurve(poles, values, multiplicities, curve.degree)
 
 
-def outlines(shape: Any, unit: str) -> Outlines:
-    """Curves of an OpenCASCADE shape: its edges, those that meet chained to outlines."""
-    from OCP.TopAbs import TopAbs_EDGE
-    from OCP.TopExp import TopExp_Explorer
-    from OCP.TopoDS import TopoDS
+def outlines(shape: Any, unit: str, name: str) -> Outlines:
+    """Curves of an OpenCASCADE shape: bounds of faces and wires as they are, edges chained.
+
+    Parameters
+    ----------
+    shape : TopoDS_Shape or None
+    unit : str
+        Of its coordinates.
+    name : str
+        Of the file, for warnings.
+    """
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
     if shape is None or shape.IsNull():
         raise FormatError("the file holds no geometry")
-    runs: list[list[Piece]] = []
-    seen: list[Any] = []
-    explorer = TopExp_Explorer(shape, TopAbs_EDGE)
-    while explorer.More():
-        edge = TopoDS.Edge(explorer.Current())
-        if not any(edge.IsSame(other) for other in seen):
-            seen.append(edge)
-            runs.append(_pieces(edge))
-        explorer.Next()
+    runs: list[Sequence[Piece]] = []
+    # Two faces that share an edge have two bounds, each of which holds it.
+    for wire in _parts(shape, Kind.TopAbs_WIRE):
+        edges = _parts(wire, Kind.TopAbs_EDGE)
+        runs += chained([_pieces(edge) for edge in edges], name)
+    runs += [_pieces(edge) for edge in _parts(shape, Kind.TopAbs_EDGE, outside=Kind.TopAbs_WIRE)]
     if not any(runs):
         raise FormatError("the file holds no curve; points and surfaces without edges are not read")
-    return Outlines(chained(runs), unit=unit)
+    return Outlines(chained(runs, name), unit=unit)
+
+
+def _parts(shape: Any, kind: Any, outside: Any | None = None) -> list[Any]:
+    """Parts of a shape, each once, or those that are in no part of another kind."""
+    from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher
+    from OCP.TopExp import TopExp_Explorer
+
+    found = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
+    avoided = () if outside is None else (outside,)
+    explorer = TopExp_Explorer(shape, kind, *avoided)
+    while explorer.More():
+        found.Add(explorer.Current())
+        explorer.Next()
+    return [found.FindKey(number) for number in range(1, found.Extent() + 1)]
 
 
 def _pieces(edge: Any) -> list[Piece]:
@@ -169,7 +187,9 @@ def _pieces(edge: Any) -> list[Piece]:
     from OCP.BRepAdaptor import BRepAdaptor_Curve
     from OCP.Geom import Geom_TrimmedCurve
     from OCP.GeomAbs import GeomAbs_CurveType
+    from OCP.TopoDS import TopoDS
 
+    edge = TopoDS.Edge(edge)
     if BRep_Tool.Degenerated_s(edge):
         return []
     adaptor = BRepAdaptor_Curve(edge)

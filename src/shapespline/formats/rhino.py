@@ -127,7 +127,7 @@ def read(path: Path) -> Outlines:
     if not runs:
         raise FormatError("the file holds no curve")
     named = {getattr(rhino3dm.UnitSystem, name): unit for unit, name in UNITS.items()}
-    return Outlines(chained(runs), unit=named.get(model.Settings.ModelUnitSystem))
+    return Outlines(chained(runs, path.name), unit=named.get(model.Settings.ModelUnitSystem))
 
 
 def _pieces(rhino3dm: Any, curve: Any) -> list[Piece]:
