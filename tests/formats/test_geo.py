@@ -108,6 +108,51 @@ def test_what_is_no_outline_is_said(held, sentence):
         ss.read(SimpleNamespace(__geo_interface__=held))
 
 
+@pytest.mark.parametrize(
+    ("points", "closed"),
+    [
+        ([(0, 0), (10, 0), (5, 8)], False),
+        ([(0, 0), (10, 0), (10, 10), (0, 10)], False),
+        ([(0, 0), (10, 0), (10, 10), (0, 10), (0, 0.1)], False),
+        ([(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)], True),
+        ([(0, 0), (10, 0), (5, 8), (0, 0)], True),
+        ([(0, 0), (10, 0), (0, 0)], False),
+        ([(0, 0), (10, 0), (10, 0), (0, 0)], False),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:dropped 1 of 4 points")
+def test_a_line_is_closed_if_its_last_position_is_the_first(tmp_path, points, closed):
+    (tmp_path / "a.geojson").write_text(json.dumps({"type": "LineString", "coordinates": points}))
+    for source in (tmp_path / "a.geojson", shapely.LineString(points)):
+        (contour,) = ss.read(source).contours
+        assert contour.closed == closed
+        assert not ss.read(source, closed=False).contours[0].closed
+    if len(set(points)) > 2:
+        assert ss.read(shapely.LineString(points), closed=True).contours[0].closed
+
+
+@pytest.mark.filterwarnings("ignore::shapespline.errors.ArcsAsCurvesWarning")
+def test_an_open_curve_with_near_ends_comes_back_open(tmp_path):
+    turn = np.linspace(0.01, 2 * np.pi - 0.01, 200)
+    points = np.column_stack([np.cos(turn), np.sin(turn)])
+    fit = ss.fit_curve(ss.Contour(points, closed=False), tolerance=0.01)
+    ss.write(tmp_path / "a.geojson", fit)
+    assert not ss.read(tmp_path / "a.geojson").contours[0].closed
+
+
+@pytest.mark.parametrize("ring", [[], [(1, 1)] * 4, [(0, 0), (1, 0), (0, 0)], [(0, 0), ("a", 1)]])
+@pytest.mark.filterwarnings("ignore:dropped")
+def test_the_feature_that_cannot_be_read_is_named(ring):
+    rings = [[(0, 0), (4, 0), (4, 4), (0, 0)], ring]
+    features = [
+        {"type": "Feature", "id": ident, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+        for ident, ring in zip([7, "lake"], rings, strict=True)
+    ]
+    held = {"type": "FeatureCollection", "features": features}
+    with pytest.raises(ss.ShapesplineError, match=r"feature 2 \(id 'lake'\): "):
+        ss.read(SimpleNamespace(__geo_interface__=held))
+
+
 def test_options_and_arguments_are_checked(lake):
     with pytest.raises(ss.InvalidInputError, match="level is not an option for a LineString"):
         ss.read(lake[1], level=3)

@@ -8,13 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shapespline.errors import FormatError, MissingReferenceWarning, caller_level
+from shapespline.errors import (
+    FormatError,
+    MissingReferenceWarning,
+    ShapesplineError,
+    caller_level,
+)
 from shapespline.formats.geo import geometries, plain_lists
 from shapespline.geometry import parents_of
 from shapespline.values import Contour, Shape
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from shapespline.typing import FloatArray
@@ -87,12 +91,15 @@ def read(path: Path, *, closed: bool | None = None) -> Shape:
     ----------
     path : Path
     closed : bool, optional
-        Whether lines are closed; found from their ends if not given. Polygons are closed.
+        Whether lines are closed; if not given, those whose last position is the first. Polygons
+        are closed.
 
     Raises
     ------
     FormatError
         If the file is no JSON, no GeoJSON, or holds neither a line nor a polygon.
+    InvalidInputError
+        Naming the feature, if a line or ring has too few points or one that is no finite number.
     """
     try:
         held = json.loads(path.read_bytes())
@@ -109,10 +116,9 @@ def shape_of(held: Any, closed: bool | None, reference: str | None) -> Shape:
     FormatError
         If it is no GeoJSON, or holds neither a line nor a polygon.
     """
-    found = list(_lines(held))
-    if not found:
+    contours = _contours(held, closed)
+    if not contours:
         raise FormatError("no line and no polygon; points alone make no outline")
-    contours = [Contour(points, True if ring else closed) for points, ring in found]
     return Shape(contours, parents_of(contours), reference=reference)
 
 
@@ -125,33 +131,52 @@ def _said_reference(held: Any) -> str | None:
     return name if isinstance(name, str) and name.strip() else None
 
 
-def _lines(value: Any) -> Iterator[tuple[FloatArray, bool]]:
-    """Points of every line, and whether it is the ring of a polygon."""
+def _contours(value: Any, closed: bool | None) -> list[Contour]:
+    """Every line and every ring of a polygon."""
     if not isinstance(value, dict) or not isinstance(value.get("type"), str):
         raise FormatError("no GeoJSON: an object with a type was expected")
     kind = value["type"]
     if kind == "FeatureCollection":
-        for feature in _list(value, "features"):
-            yield from _lines(feature)
-    elif kind == "Feature":
-        if value.get("geometry") is not None:
-            yield from _lines(value["geometry"])
-    elif kind == "GeometryCollection":
-        for geometry in _list(value, "geometries"):
-            yield from _lines(geometry)
-    elif kind == "LineString":
-        yield _points(plain_lists(value.get("coordinates")), kind), False
-    elif kind in ("MultiLineString", "Polygon"):
-        for line in _list(value, "coordinates"):
-            yield _points(line, kind), kind == "Polygon"
-    elif kind == "MultiPolygon":
-        for polygon in _list(value, "coordinates"):
-            if not isinstance(polygon, list):
-                raise FormatError("coordinates of a MultiPolygon must be lists of rings")
-            for ring in polygon:
-                yield _points(ring, kind), True
-    elif kind not in ("Point", "MultiPoint"):
+        features = enumerate(_list(value, "features"), start=1)
+        return [one for number, held in features for one in _of_feature(number, held, closed)]
+    if kind == "Feature":
+        geometry = value.get("geometry")
+        return [] if geometry is None else _contours(geometry, closed)
+    if kind == "GeometryCollection":
+        return [one for held in _list(value, "geometries") for one in _contours(held, closed)]
+    if kind == "LineString":
+        return [_line(plain_lists(value.get("coordinates")), kind, closed)]
+    if kind == "MultiLineString":
+        return [_line(positions, kind, closed) for positions in _list(value, "coordinates")]
+    if kind == "Polygon":
+        return [Contour(_points(ring, kind), True) for ring in _list(value, "coordinates")]
+    if kind == "MultiPolygon":
+        polygons = _list(value, "coordinates")
+        if not all(isinstance(polygon, list) for polygon in polygons):
+            raise FormatError("coordinates of a MultiPolygon must be lists of rings")
+        return [Contour(_points(ring, kind), True) for rings in polygons for ring in rings]
+    if kind not in ("Point", "MultiPoint"):
         raise FormatError(f"no GeoJSON: unknown type {kind[:40]!r}")
+    return []
+
+
+def _of_feature(number: int, feature: Any, closed: bool | None) -> list[Contour]:
+    """Contours of a feature of a collection; errors name it."""
+    try:
+        return _contours(feature, closed)
+    except ShapesplineError as error:
+        ident = feature.get("id") if isinstance(feature, dict) else None
+        said = f" (id {str(ident)[:40]!r})" if isinstance(ident, str | int) else ""
+        raise type(error)(f"feature {number}{said}: {error}") from error
+
+
+def _line(positions: Any, kind: str, closed: bool | None) -> Contour:
+    """A line, closed if it says so by its ends; one there and back between two points is not."""
+    points = _points(positions, kind)
+    if closed is None:
+        ring = len(points) > 3 and bool((points[0] == points[-1]).all())
+        closed = ring and len(np.unique(points, axis=0)) > 2
+    return Contour(points, closed)
 
 
 def _list(value: dict[str, Any], name: str) -> list[Any]:
