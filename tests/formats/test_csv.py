@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.support.make_fit import blob, fit_of
 
+import shapespline as ss
 from shapespline.errors import DegenerateContourError, FormatError
 from shapespline.formats import csv
 from shapespline.formats.registry import read
@@ -137,6 +139,33 @@ def test_closedness(tmp_path):
     path.write_text("0,0\n1,0\n2,0\n3,1\n")
     assert not read(path).longest.closed
     assert read(path, closed=True).longest.closed
+
+
+@pytest.mark.parametrize("ending", ["csv", "geojson"])
+@pytest.mark.parametrize("chord", [None, 0.001, 1.0])
+def test_straight_pieces_are_written_as_two_points(tmp_path, ending, chord):
+    corners = [(0, 0), (10, 0), (10, 10), (0, 10)]
+    fit = ss.fit_curve(ss.Contour(corners, closed=True), tolerance=0.01)
+    ss.write(tmp_path / f"a.{ending}", fit, chord=chord)
+    (contour,) = ss.read(tmp_path / f"a.{ending}")
+    assert contour.closed
+    assert sorted(map(tuple, contour.points.round(9))) == sorted(corners)
+
+
+def test_a_larger_chord_means_fewer_points(tmp_path):
+    """A chord h off spans sqrt(8 h / curvature): the number goes with the root of the ratio."""
+    fit, counts = fit_of(blob(9)), []
+    for chord in (0.15, 0.0015):
+        ss.write(tmp_path / "a.csv", fit, chord=chord)
+        counts.append(len(ss.read(tmp_path / "a.csv").contours[0]))
+    # Whole steps on each span.
+    assert counts[0] <= counts[1] / 10 + len(fit.spline.breakpoints)
+
+
+def test_an_open_curve_of_long_lines_comes_back_open(tmp_path):
+    corners = ss.Contour([(0, 0), (10, 0), (10, 10), (0, 10)], closed=False)
+    ss.write(tmp_path / "a.csv", ss.fit_curve(corners, tolerance=0.01))
+    assert not ss.read(tmp_path / "a.csv").contours[0].closed
 
 
 def test_y_down_turns_over_within_the_box(tmp_path):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from shapespline.typing import FloatArray
-    from shapespline.values import Drawing
+    from shapespline.values import Drawing, Fit
 
 COMMENT = "#"
 # Below this confidence an order that was found may be another one.
@@ -61,16 +61,25 @@ def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:
     -------
     bytes
         Two columns with the shortest digits that read back to the same doubles, separated by
-        commas. Closed curves repeat their first point at the end.
+        commas. Closed curves repeat their first point at the end; open ones whose ends are no
+        farther apart than a straight piece is long have points on it, so that they read back open.
 
     Raises
     ------
     InvalidInputError
         If ``chord`` is not positive, or absurdly small.
     """
-    outlines = [sampled(fit.spline, chord)[0].polyline.tolist() for fit in drawing]
-    blocks = ["".join(f"{x!r},{y!r}\n" for x, y in points) for points in outlines]
+    blocks = ["".join(f"{x!r},{y!r}\n" for x, y in _polyline(fit, chord)) for fit in drawing]
     return "\n".join(blocks).encode("ascii")
+
+
+def _polyline(fit: Fit, chord: float | None) -> list[list[float]]:
+    """Points of a curve as a file can hold them, which tells by them alone what is closed."""
+    contour = sampled(fit.spline, chord, longest=np.inf)[0]
+    if not contour.closed and Contour(contour.points).closed:
+        contour = sampled(fit.spline, chord)[0]
+    points: list[list[float]] = contour.polyline.tolist()
+    return points
 
 
 def read(

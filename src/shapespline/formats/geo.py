@@ -69,7 +69,7 @@ def _points(fit: Fit, chord: float | None) -> FloatArray:
     if fit.degree == 1 and chord is None:
         points = fit.spline.control_points
         return points[:-1] if fit.closed and (points[0] == points[-1]).all() else points
-    return sampled(fit.spline, chord)[0].points
+    return sampled(fit.spline, chord, longest=np.inf)[0].points
 
 
 def _ring(fit: Fit, chord: float | None, *, counter_clockwise: bool) -> list[list[float]]:

@@ -26,19 +26,24 @@ LONGEST_STEP = 2e-2
 MOST_SAMPLES = 5_000_000
 
 
-def sampled(spline: BSplineCurve, sampling: float | None = None) -> tuple[Contour, FloatArray]:
+def sampled(
+    spline: BSplineCurve, sampling: float | None = None, *, longest: float = LONGEST_STEP
+) -> tuple[Contour, FloatArray]:
     """Points on a curve so dense that the chords stay within ``sampling``, and their parameters.
 
-    1e-4 of the box diagonal when none is given, and never more than 1e-2 of it.
+    1e-4 of the box diagonal when none is given, and never more than 1e-2 of it. No step is longer
+    than ``longest`` of the diagonal: infinite where the points are not to be fitted again.
     """
-    points, parameters = chords(spline, sampling)
+    points, parameters = chords(spline, sampling, longest=longest)
     closed = bool((points[0] == points[-1]).all())
     contour = Contour.silently(points, closed, accuracy=0.0)
     first = np.unique(contour.source, return_index=True)[1]
     return contour, parameters[first]
 
 
-def chords(spline: BSplineCurve, sampling: float | None = None) -> tuple[FloatArray, FloatArray]:
+def chords(
+    spline: BSplineCurve, sampling: float | None = None, *, longest: float = LONGEST_STEP
+) -> tuple[FloatArray, FloatArray]:
     """The same points before they are a contour, the last one where the curve ends.
 
     Every Bezier piece is cut at equal steps of its parameter. A chord over a step h strays from
@@ -58,7 +63,7 @@ def chords(spline: BSplineCurve, sampling: float | None = None) -> tuple[FloatAr
     step = min(SAMPLING * diagonal if sampling is None else sampling, COARSEST * diagonal)
     # At least so many that no step is long: a fit tells corners from bends by what lies around.
     wanted = np.empty(len(pieces))
-    _kernels.steps_wanted(beziers, degree, step, LONGEST_STEP * diagonal, wanted)
+    _kernels.steps_wanted(beziers, degree, step, longest * diagonal, wanted)
     if not wanted.sum() <= MOST_SAMPLES:
         raise InvalidInputError(
             f"sampling asks for {wanted.sum():.2g} points on one outline, got {sampling!r} for a"
