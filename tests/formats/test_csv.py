@@ -78,6 +78,37 @@ def test_by_hand(text, points):
     assert csv.parse(text.encode()).points.tolist() == [list(map(float, point)) for point in points]
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        '"x","y"\n"0,5","-1,5"\n"2",",25"\n',
+        '"x, east";"y"\n"0,5";-1,5\n"2";"0,25"\n',
+        "sep=;\nx;y\n0,5;-1,5\n2;0,25\n",
+        "Measured with X\nDate 2020-01-01\nx,y\nmm,mm\n\n0.5,-1.5\n2,0.25\n",
+        "y,x\n-1.5,0.5\n0.25,2\n",
+        "Lat;Lon\n-1,5;0,5\n0,25;2\n",
+        '"Latitude [deg]","Longitude [deg]"\n-1.5,0.5\n0.25,2\n',
+        "northing (m)\teasting (m)\n-1.5\t0.5\n0.25\t2\n",
+        "Y [mm] X [mm]\n-1.5 0.5\n0.25 2\n",
+        "lat,lon\ndeg,deg\n-1.5,0.5\n0.25,2\n",
+        "X,Y\n0.5,-1.5\n2,0.25\n",
+        "lon,lat\n0.5,-1.5\n2,0.25\n",
+        "height,width\n0.5,-1.5\n2,0.25\n",
+    ],
+)
+def test_what_spreadsheets_write(text):
+    assert csv.parse(text.encode()).points.tolist() == [[0.5, -1.5], [2, 0.25]]
+
+
+def test_columns_that_are_asked_for_are_taken_as_asked():
+    table = b'"id","lat","lon"\n"a;1","-1,5","0,5"\n"b;2","0,25","2,0"\n'
+    for columns in ("lon,lat", "3,2"):
+        with_names = table if columns == "lon,lat" else table.split(b"\n", 1)[1]
+        points = csv.parse(with_names, columns).points
+        assert points.tolist() == [[0.5, -1.5], [2, 0.25]]
+    assert csv.parse(b"lat,lon\n1,2\n", "1,2").points.tolist() == [[1, 2]]
+
+
 def test_latin_1_header_is_no_obstacle():
     assert csv.parse("x (µm);y (µm)\n1;2\n".encode("latin-1")).points.tolist() == [[1.0, 2.0]]
 
@@ -93,7 +124,8 @@ def test_latin_1_header_is_no_obstacle():
         ("1,2\n3,4,\n", "line 2: expected 2 columns .* found 3"),
         ("x,y\n1,2\n\n# note\n3,four\n", "line 5: 'four' is not a number"),
         ("1,abc\n2,3\n", "line 1: 'abc' is not a number"),  # half a line of numbers: no header
-        ("x,y\nx,y\n1,2\n", "line 1: 'x' is not a number"),
+        ("x,y\n1,2\nx,y\n", "line 3: 'x' is not a number"),
+        ("x,y\n7 points,\n1,2\n", "line 1: 'x' is not a number"),
         ("1,2\n3,1_000\n", "line 2: '1_000' is not a number"),
         ("1,2\n3,\n", "line 2: '' is not a number"),
         ("1,2\nnan,4\n", "line 2: 'nan' is not finite"),

@@ -9,42 +9,19 @@ import numpy as np
 
 from shapespline.analysis import order_points
 from shapespline.errors import FormatError, ShuffledPointsWarning, caller_level
-from shapespline.formats.columns import picked
+from shapespline.formats.columns import COMMENT, picked
+from shapespline.formats.dialects import Dialect, content_of, head_of, lines_of, number, shown
 from shapespline.geometry import parents_of, sampled
 from shapespline.values import Contour, Shape
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from shapespline.typing import FloatArray
     from shapespline.values import Drawing, Fit
 
-COMMENT = "#"
 # Below this confidence an order that was found may be another one.
 CLEAR = 0.995
-
-
-class Dialect(NamedTuple):
-    """How a line is written: what separates its columns (None: blanks), the decimal mark."""
-
-    separator: str | None
-    decimal: str
-
-    def fields(self, line: str) -> list[str]:
-        """Columns of a line, with decimal points."""
-        fields = [field.strip() for field in line.split(self.separator)]
-        return [field.replace(self.decimal, ".") for field in fields]
-
-
-# In order of preference. With semicolons or blanks between the columns a comma is a decimal comma.
-DIALECTS = (
-    Dialect(";", "."),
-    Dialect(";", ","),
-    Dialect(",", "."),
-    Dialect(None, "."),
-    Dialect(None, ","),
-)
 
 
 def encode(drawing: Drawing, *, chord: float | None = None) -> bytes:
@@ -93,12 +70,13 @@ def read(
     """Read outlines from delimited text.
 
     Columns are separated by semicolons, commas, or blanks and tabs (a run of them counts once);
-    which, is told by the first line of numbers. Where commas do not separate columns, they are
-    decimal commas. ``#`` comments, quotes, a byte order mark and one header line (no numbers in
-    it) are skipped. A blank line begins another outline, unless it would leave an outline of a
-    single point. Airfoils in the layout of Lednicer (numbers of points above and below, then both
-    surfaces from the leading edge) become one outline from the trailing edge around. UTF-8, else
-    Latin-1.
+    which, is told by the first line of numbers. Where commas do not separate columns, and within
+    quotes, they are decimal commas. ``#`` comments, quotes, a byte order mark, the line ``sep=;``
+    of spreadsheets and header lines (no numbers in them) are skipped. A header that names the
+    columns y and x, latitude and longitude or northing and easting turns them round. A blank line
+    begins another outline, unless it would leave an outline of a single point. Airfoils in the
+    layout of Lednicer (numbers of points above and below, then both surfaces from the leading edge)
+    become one outline from the trailing edge around. UTF-8, else Latin-1.
 
     Parameters
     ----------
@@ -228,10 +206,10 @@ def parse(data: bytes, columns: str | None = None) -> Parsed:
     >>> points.tolist(), breaks
     ([[1.5, 2.0], [3.0, 4.5], [0.0, 0.0], [1.0, 1.0]], [2])
     """
-    lines = _decoded(data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    lines = lines_of(_decoded(data))
     if columns is not None:
         lines = picked(lines, columns)
-    dialect, n_skipped = _dialect(lines)
+    dialect, n_skipped, y_first = head_of(lines)
     body = lines[n_skipped:]
     if dialect.separator != "," and any("," in line for line in body):
         dialect = Dialect(dialect.separator, ",")
@@ -246,6 +224,8 @@ def parse(data: bytes, columns: str | None = None) -> Parsed:
     # Thirty times slower, but it names the line, and it skips blank lines that hold blanks.
     if not sound:
         points = _line_by_line(lines, n_skipped, dialect)
+    if y_first and columns is None:
+        points = np.ascontiguousarray(points[:, ::-1])
     return Parsed(points, _breaks(body, len(points)))
 
 
@@ -263,7 +243,7 @@ def _breaks(body: list[str], n_points: int) -> list[int]:
 
 
 def _decoded(data: bytes) -> str:
-    """Text of a file, whatever its encoding, without quotes."""
+    """Text of a file, whatever its encoding."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         text = data.decode("utf-16", errors="replace")
     elif b"\0" in data:
@@ -273,84 +253,28 @@ def _decoded(data: bytes) -> str:
             text = data.decode("utf-8-sig")
         except UnicodeDecodeError:
             text = data.decode("latin-1")
-    return text.replace('"', "")
-
-
-def _content(lines: list[str], start: int = 0) -> Iterator[tuple[int, str]]:
-    """Index and content of the lines that hold more than blanks and comments."""
-    for index in range(start, len(lines)):
-        content = lines[index].split(COMMENT, 1)[0].strip()
-        if content:
-            yield index, content
-
-
-def _dialect(lines: list[str]) -> tuple[Dialect, int]:
-    """Dialect of the first or second line with content, and the number of lines before it."""
-    content = _content(lines)
-    first = next(content, None)
-    if first is None:
-        raise FormatError("no points: only blank lines and comments")
-    second = next(content, None)
-    for line in (first, second):
-        if line is None:
-            continue
-        for dialect in DIALECTS:
-            fields = dialect.fields(line[1])
-            if len(fields) == 2 and None not in map(_number, fields):
-                if line is second and not _is_header(first[1], dialect):
-                    return dialect, 0
-                return dialect, line[0]
-    if second is None and not any(letter.isdigit() for letter in first[1]):
-        raise FormatError(f"no points: only a line of words, {_shown(first[1])}")
-    # No line of two numbers to learn from: the likeliest dialect, for the diagnosis.
-    sample = (first if second is None else second)[1]
-    separator = next((mark for mark in (";", ",") if mark in sample), None)
-    return Dialect(separator, "."), 0
-
-
-def _is_header(line: str, dialect: Dialect) -> bool:
-    """Whether a line holds no numbers; a title in words may end with one (NACA 2412)."""
-    fields = dialect.fields(line)
-    if dialect.separator is None:
-        fields = fields[:1]
-    begins_a_number = fields[0].lstrip("+-.,")[:1].isdigit()
-    return not begins_a_number and all(_number(field) is None for field in fields)
-
-
-def _number(field: str) -> float | None:
-    """Value of a field, None if it is no number."""
-    if "_" in field or not field.isascii():  # Python would take them, data files do not
-        return None
-    try:
-        return float(field)
-    except ValueError:
-        return None
+    return text
 
 
 def _line_by_line(lines: list[str], start: int, dialect: Dialect) -> FloatArray:
     """Points of the lines, or the error of the first one without exactly two finite numbers."""
     points: list[float] = []
-    for index, content in _content(lines, start):
+    for index, content in content_of(lines, start):
         fields = dialect.fields(content)
         if len(fields) != 2:
             wide = len(fields) > 2 and not points
             remedy = '; say which two: --columns 2,3 (columns="2,3")' if wide else ""
             raise FormatError(
                 f"line {index + 1}: expected 2 columns (x and y), found {len(fields)}:"
-                f" {_shown(content)}{remedy}"
+                f" {shown(content)}{remedy}"
             )
         for field in fields:
-            value = _number(field)
+            value = number(field)
             if value is None:
-                raise FormatError(f"line {index + 1}: {_shown(field)} is not a number")
+                raise FormatError(f"line {index + 1}: {shown(field)} is not a number")
             if not np.isfinite(value):
                 raise FormatError(
-                    f"line {index + 1}: {_shown(field)} is not finite; remove or repair the point"
+                    f"line {index + 1}: {shown(field)} is not finite; remove or repair the point"
                 )
             points.append(value)
     return np.array(points).reshape(-1, 2)
-
-
-def _shown(text: str) -> str:
-    """Text quoted for a message, cut if long."""
-    return repr(text if len(text) <= 40 else f"{text[:37]}...")
