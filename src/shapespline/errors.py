@@ -45,6 +45,10 @@ class SkippedContentWarning(UserWarning):
     """Parts of a file that are no outlines were left out."""
 
 
+class OpenOutlinesWarning(UserWarning):
+    """Ends of outlines in a drawing almost meet, and were not joined."""
+
+
 class PictureWarning(UserWarning):
     """What a picture was taken for, where it could be otherwise, and the option that says so."""
 

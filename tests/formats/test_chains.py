@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from shapespline.errors import FormatError, SkippedContentWarning
+from shapespline.errors import FormatError, OpenOutlinesWarning, SkippedContentWarning
 from shapespline.formats import chains
 from shapespline.values import FULL_TURN
 from shapespline.values.arc import Arc
@@ -153,7 +153,32 @@ def test_a_seam_is_a_joint_like_any_other():
         assert vertices(chain)[0] == vertices(chain)[-1]
         (whole,) = chains.chained([lines], "polyline")
         assert (whole[0].control_points[0] == whole[-1].control_points[-1]).all()
-    assert [len(chain) for chain in chained([line((0, 0), (1, 0)), line((1, 0), (0, 1e-3))])] == [2]
+    assert [len(chain) for chain in chained([line((0, 0), (1, 0)), line((1, 0), (0, 1e-2))])] == [2]
+
+
+def test_rounding_to_three_decimals_opens_nothing():
+    """Each end is off by up to half a thousandth across and along: 1.4e-3 from its neighbour."""
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        turn = rng.uniform(0, 2 * np.pi)
+        across = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+        corners = np.array([(0, 0), (100, 0), (100, 60), (0, 60)]) @ across
+        off = 5e-4 * rng.choice([-1, 1], (4, 2, 2))
+        lines = [line(corners[k] + off[k, 0], corners[k - 1] + off[k, 1]) for k in range(4)]
+        (chain,) = chained(lines)
+        assert vertices(chain)[0] == vertices(chain)[-1]
+
+
+def test_ends_that_almost_meet_are_said_once():
+    gap, corners = 0.01, [(0, 0), (100, 0), (100, 60), (0, 60)]
+    lines = [line(corners[k], (corners[k - 1][0], corners[k - 1][1] + gap)) for k in range(4)]
+    with pytest.warns(OpenOutlinesWarning, match=r"nearest 0.01 apart \(4 such gaps\)") as said:
+        assert len(chained(lines)) == 4
+    assert len(said) == 1
+    # What was drawn apart, ends on others and dashes are no gaps.
+    chained([line((0, 0), (100, 0)), line((0, 0.2), (100, 0.2))])
+    chained([line((0, 0), (100, 0)), *(line((0, y), (-9, y)) for y in (0, 3, -3))])
+    chained([line((x, 0), (x + 0.06, 0)) for x in np.arange(0, 100, 0.09)])
 
 
 def test_repeated_runs_are_left_out_and_said():

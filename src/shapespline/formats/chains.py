@@ -9,6 +9,7 @@ import numpy as np
 
 from shapespline.errors import FormatError, SkippedContentWarning, caller_level
 from shapespline.formats.file_order import loops_in_order
+from shapespline.formats.gaps import say_of_gaps
 from shapespline.formats.junctions import joints
 from shapespline.formats.pieces import closed_up, size_of
 from shapespline.formats.repeats import repeated
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
 
     from shapespline.values import Piece
 
-# Of the size of the drawing: ends nearer than this are meant to be one point.
-MEETING = 1e-6
+# Of the size of the drawing: ends nearer than this are meant to be one point (FMT-13).
+MEETING = 2e-5
 # Squares of coordinates are finite.
 LARGEST = 1e60
 
@@ -49,6 +50,8 @@ def chained(runs: Sequence[Sequence[Piece]], name: str) -> list[Sequence[Piece]]
     -----
     SkippedContentWarning
         If runs that repeat others were left out.
+    OpenOutlinesWarning
+        If ends almost meet.
 
     Examples
     --------
@@ -66,7 +69,8 @@ def chained(runs: Sequence[Sequence[Piece]], name: str) -> list[Sequence[Piece]]
         raise FormatError(
             f"coordinates must not exceed {LARGEST:g} in magnitude, found {largest:g}; scale it"
         )
-    near = MEETING * size_of(pieces)
+    size = size_of(pieces)
+    near = MEETING * size
     loops = loops_in_order(given, near)
     drawn = [run for loop in loops for run in loop]
     order = drawn + sorted(set(range(len(given))).difference(drawn))
@@ -82,7 +86,15 @@ def chained(runs: Sequence[Sequence[Piece]], name: str) -> list[Sequence[Piece]]
     left_out = len(given) - sum(len(chain.runs) for chain in chains)
     if left_out:
         _say_of_repeated(left_out, name)
+    say_of_gaps([chain.pieces for chain in chains if not chain.is_closed], near, size, name)
     return [chain.pieces for chain in sorted(chains, key=lambda chain: min(chain.runs))]
+
+
+def wire(runs: Sequence[Sequence[Piece]]) -> list[Sequence[Piece]]:
+    """Outlines of runs that are known to be one: one, or what hangs together."""
+    alone = [_Chain([], kept) for kept in map(closed_up, runs) if kept]
+    pieces = [piece for chain in alone for piece in chain.pieces]
+    return [chain.pieces for chain in _joined(alone, MEETING * size_of(pieces))] if alone else []
 
 
 class _Chain(NamedTuple):

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shapespline.errors import FormatError
-from shapespline.formats.chains import chained
+from shapespline.formats.chains import chained, wire
 from shapespline.formats.cubics import groups
 from shapespline.formats.entities import entities
 from shapespline.geometry import Outlines
@@ -158,9 +158,8 @@ def outlines(shape: Any, unit: str, name: str) -> Outlines:
         raise FormatError("the file holds no geometry")
     runs: list[Sequence[Piece]] = []
     # Two faces that share an edge have two bounds, each of which holds it.
-    for wire in _parts(shape, Kind.TopAbs_WIRE):
-        edges = _parts(wire, Kind.TopAbs_EDGE)
-        runs += chained([_pieces(edge) for edge in edges], name)
+    for bound in _parts(shape, Kind.TopAbs_WIRE):
+        runs += wire([_pieces(edge) for edge in _parts(bound, Kind.TopAbs_EDGE)])
     runs += [_pieces(edge) for edge in _parts(shape, Kind.TopAbs_EDGE, outside=Kind.TopAbs_WIRE)]
     if not any(runs):
         raise FormatError("the file holds no curve; points and surfaces without edges are not read")
