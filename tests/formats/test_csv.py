@@ -109,6 +109,16 @@ def test_columns_that_are_asked_for_are_taken_as_asked():
     assert csv.parse(b"lat,lon\n1,2\n", "1,2").points.tolist() == [[1, 2]]
 
 
+def test_points_of_scanners(tmp_path):
+    path = tmp_path / "scan.xyz"
+    path.write_text("0.5 -1.5\n2 0.25\n")
+    assert read(path).contours[0].points.tolist() == [[0.5, -1.5], [2, 0.25]]
+    path.write_text("0.5 -1.5 7\n2 0.25 7\n")
+    assert len(read(path, columns="1,2").contours[0]) == 2
+    with pytest.raises(FormatError, match=r"found 3: .*; say which two: --columns"):
+        read(path)
+
+
 def test_latin_1_header_is_no_obstacle():
     assert csv.parse("x (µm);y (µm)\n1;2\n".encode("latin-1")).points.tolist() == [[1.0, 2.0]]
 

@@ -69,6 +69,7 @@ FORMATS = (
     Format(
         "CSV", (".csv", ".txt", ".dat", ".xy", ".tsv"), "csv", reads=True, writes=True, arcs=False
     ),
+    Format("CSV", (".xyz",), "csv", reads=True),
     Format("NumPy", (".npy",), "npy", reads=True),
     Format(
         "image",
@@ -167,12 +168,12 @@ def read(
 
     Examples
     --------
-    >>> read("outline.xyz")
+    >>> read("outline.abc")
     Traceback (most recent call last):
     ...
-    shapespline.errors.UnknownFormatError: outline.xyz: no reader for '.xyz'; readable endings: \
+    shapespline.errors.UnknownFormatError: outline.abc: no reader for '.abc'; readable endings: \
 .3dm .bmp .csv .dat .dxf .geojson .gif .glif .iges .igs .jpeg .jpg .json .npy .png .step .stp .svg \
-.tif .tiff .tsv .txt .webp .xy
+.tif .tiff .tsv .txt .webp .xy .xyz
     """
     options |= {"closed": closed, "y_down": y_down or None}
     held = read_object(path, options)

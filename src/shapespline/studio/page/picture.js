@@ -81,7 +81,7 @@ export class Picture {
     const { scene, store } = this.app;
     const { reading } = store.now;
     element("picture").hidden = !scene.shape?.picture;
-    element("points-in").hidden = !/\.(csv|txt|dat|xy|tsv|npy)$/i.test(scene.shape?.name ?? "");
+    element("points-in").hidden = !/\.(csv|txt|dat|xy|xyz|tsv|npy)$/i.test(scene.shape?.name ?? "");
     choice("p-mode").value = reading.colors ? "colors" : reading.centerline ? "centerline" : "ink";
     for (const one of document.querySelectorAll(".p-ink")) /** @type {HTMLElement} */ (one).hidden = Boolean(reading.colors);
     for (const one of document.querySelectorAll(".p-colors")) /** @type {HTMLElement} */ (one).hidden = !reading.colors;
