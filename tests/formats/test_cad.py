@@ -10,6 +10,7 @@ from tests.support.round_trip import round_trip
 
 import shapespline as ss
 from shapespline.geometry.exact import exact_fit
+from shapespline.geometry.nearest import nearest
 from shapespline.values.drawing import Drawing
 
 rhino3dm = pytest.importorskip("rhino3dm", reason="needs shapespline[rhino]")
@@ -167,6 +168,51 @@ def test_arcs_of_other_programs(tmp_path):
     assert np.abs(radius - 3).max() <= 1e-8
     with pytest.raises(ss.FormatError, match="does not lie in a plane z = constant"):
         ss.read(steep)
+
+
+def test_rational_curves_of_rhino(tmp_path):
+    model = rhino3dm.File3dm()
+    circle = rhino3dm.Circle(rhino3dm.Point3d(1, 2, 0), 3).ToNurbsCurve()
+    assert circle.IsRational
+    corners = [rhino3dm.Point3d(x, y, 0) for x, y in [(10, 0), (14, 0), (14, 5), (10, 5)]]
+    periodic = rhino3dm.NurbsCurve.Create(True, 3, corners)
+    heavy = rhino3dm.NurbsCurve(3, True, 3, 3)
+    for index, (x, y, w) in enumerate([(0, 10, 1), (4, 10, 3), (4, 16, 1)]):
+        heavy.Points[index] = rhino3dm.Point4d(w * x, w * y, 0, w)
+    for index, knot in enumerate([0.0, 0, 1, 1]):
+        heavy.Knots[index] = knot
+    for curve in (circle, periodic, heavy):
+        model.Objects.AddCurve(curve)
+    model.Write(str(tmp_path / "a.3dm"), 6)
+    found = ss.read(tmp_path / "a.3dm")
+    assert [fit.closed for fit in found] == [True, True, False]
+    assert [piece.kind for piece in found.fits[0].pieces] == ["arc"]
+    for fit, curve in zip(found, (circle, periodic, heavy), strict=True):
+        first, last = curve.Domain.T0, curve.Domain.T1
+        there = [curve.PointAt(float(t)) for t in np.linspace(first, last, 50)]
+        points = np.array([(point.X, point.Y) for point in there])
+        # Cubics and the twin of an arc are within a billionth of the size, 10 at most.
+        assert np.sqrt(nearest(fit.spline, points).distances_sq.max()) <= 1.1e-8
+
+
+def test_a_circle_of_rational_splines_is_a_circle(tmp_path):
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
+    from OCP.Geom import Geom_Circle
+    from OCP.GeomConvert import GeomConvert
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+    from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
+
+    circle = Geom_Circle(gp_Ax2(gp_Pnt(5, 7, 0), gp_Dir(0, 0, 1)), 3)
+    spline = GeomConvert.CurveToBSplineCurve_s(circle)
+    assert spline.IsRational()
+    writer = STEPControl_Writer()
+    edge = BRepBuilderAPI_MakeEdge(spline).Edge()
+    writer.Transfer(edge, STEPControl_StepModelType.STEPControl_AsIs)
+    writer.Write(str(tmp_path / "a.step"))
+    (fit,) = ss.read(tmp_path / "a.step")
+    (piece,) = fit.pieces
+    assert piece.arc.is_circle
+    assert (piece.arc.centre, piece.arc.radius) == (pytest.approx((5, 7)), pytest.approx(3))
 
 
 @pytest.mark.parametrize("ending", ENDINGS)

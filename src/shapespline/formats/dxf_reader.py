@@ -46,8 +46,9 @@ def read(path: Path) -> Outlines:
     """Read the outlines in the model space of a DXF drawing.
 
     LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE and SPLINE are exact; ELLIPSE becomes cubics within a
-    billionth of its size, as do splines with weights. Blocks are exploded, and entities
-    that meet end to end are joined. Layers that are off or frozen are left out; heights are, too.
+    billionth of its size, as do splines with weights that are no arcs of circles. Blocks are
+    exploded, and entities that meet end to end are joined. Layers that are off or frozen are left
+    out; heights are, too.
 
     Parameters
     ----------

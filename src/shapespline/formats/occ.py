@@ -18,6 +18,7 @@ from shapespline.errors import FormatError
 from shapespline.formats.chains import chained, wire
 from shapespline.formats.cubics import groups
 from shapespline.formats.entities import entities
+from shapespline.formats.splines import spline_pieces
 from shapespline.geometry import Outlines
 from shapespline.values import Arc, Piece
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from shapespline.formats.entities import Entity
+    from shapespline.typing import FloatArray
     from shapespline.values import Drawing, Fit
 
 # Of the largest coordinate: what counts as the plane z = 0, and how near the cubics come that stand
@@ -186,6 +188,7 @@ def _pieces(edge: Any) -> list[Piece]:
     from OCP.BRepAdaptor import BRepAdaptor_Curve
     from OCP.Geom import Geom_TrimmedCurve
     from OCP.GeomAbs import GeomAbs_CurveType
+    from OCP.GeomConvert import GeomConvert
     from OCP.TopoDS import TopoDS
 
     edge = TopoDS.Edge(edge)
@@ -199,7 +202,15 @@ def _pieces(edge: Any) -> list[Piece]:
     if adaptor.GetType() == GeomAbs_CurveType.GeomAbs_Circle:
         return [_arc_piece(adaptor.Circle(), begin, end)]
     curve = adaptor.Curve().Curve().Transformed(adaptor.Trsf())
-    return [_spline_piece(Geom_TrimmedCurve(curve, begin, end))]
+    spline = GeomConvert.CurveToBSplineCurve_s(Geom_TrimmedCurve(curve, begin, end))
+    if spline.IsPeriodic():
+        spline.SetNotPeriodic()
+    if spline.IsRational() and adaptor.GetType() == GeomAbs_CurveType.GeomAbs_BSplineCurve:
+        weights = [spline.Weight(i) for i in range(1, spline.NbPoles() + 1)]
+        arcs = spline_pieces(spline.Degree(), _knots(spline), _poles(spline), weights)
+        if all(piece.arc for piece in arcs):  # a circle, as programs without arcs write it
+            return arcs
+    return [_spline_piece(spline)]
 
 
 def _arc_piece(circle: Any, begin: float, end: float) -> Piece:
@@ -213,12 +224,11 @@ def _arc_piece(circle: Any, begin: float, end: float) -> Piece:
     return Piece.of_arc(Arc((x, y), circle.Radius(), start, sign * (end - begin)))
 
 
-def _spline_piece(curve: Any) -> Piece:
-    """Any curve as a non-rational B-spline: exact if it is one, else within CONVERTED."""
+def _spline_piece(spline: Any) -> Piece:
+    """Any B-spline as a non-rational one: exact if it is one, else within CONVERTED."""
     from OCP.GeomAbs import GeomAbs_Shape
-    from OCP.GeomConvert import GeomConvert, GeomConvert_ApproxCurve
+    from OCP.GeomConvert import GeomConvert_ApproxCurve
 
-    spline = GeomConvert.CurveToBSplineCurve_s(curve)
     if spline.IsRational() or spline.Degree() > 9:
         size = max(abs(value) for i in range(1, spline.NbPoles() + 1) for value in
                    _xyz(spline.Pole(i)))  # fmt: skip
@@ -226,16 +236,24 @@ def _spline_piece(curve: Any) -> Piece:
         if not near.HasResult() or near.MaxError() > 10 * CONVERTED * size:
             raise FormatError("a rational curve of the file cannot be written as a B-spline")
         spline = near.Curve()
-    if spline.IsPeriodic():
-        spline.SetNotPeriodic()
-    knots = np.repeat(
+    knots = _knots(spline)
+    knots = (knots - knots[0]) / (knots[-1] - knots[0])
+    kind = "spline" if spline.NbKnots() > 2 else "line" if spline.Degree() == 1 else "bezier"
+    return Piece(kind, spline.Degree(), knots, _poles(spline))
+
+
+def _knots(spline: Any) -> FloatArray:
+    return np.repeat(
         [spline.Knot(i) for i in range(1, spline.NbKnots() + 1)],
         [spline.Multiplicity(i) for i in range(1, spline.NbKnots() + 1)],
     )
-    knots = (knots - knots[0]) / (knots[-1] - knots[0])
-    poles = _flat(np.array([_xyz(spline.Pole(i)) for i in range(1, spline.NbPoles() + 1)]))
-    kind = "spline" if spline.NbKnots() > 2 else "line" if spline.Degree() == 1 else "bezier"
-    return Piece(kind, spline.Degree(), knots, poles)
+
+
+def _poles(spline: Any) -> FloatArray:
+    poles: FloatArray = _flat(
+        np.array([_xyz(spline.Pole(i)) for i in range(1, spline.NbPoles() + 1)])
+    )
+    return poles
 
 
 def _xyz(point: Any) -> tuple[float, float, float]:

@@ -40,11 +40,11 @@ def closed_up(pieces: Sequence[Piece]) -> list[Piece]:
     gap = kept[-1].control_points[-1] - kept[0].control_points[0]
     if (len(kept) > 1 or kept[0].degree > 1) and np.hypot(*gap) <= near:
         kept[-1] = kept[-1].meeting(end=kept[0].control_points[0])
-    return _with_whole_arcs(kept)
+    return joined_arcs(kept)
 
 
-def _with_whole_arcs(pieces: list[Piece]) -> list[Piece]:
-    """The same with neighbouring arcs of one circle made one, up to a whole circle."""
+def joined_arcs(pieces: list[Piece]) -> list[Piece]:
+    """The same pieces with neighbouring arcs of one circle made one, up to a whole circle."""
     found = pieces[:1]
     for piece in pieces[1:]:
         whole = _one_arc(found[-1], piece)

@@ -14,6 +14,7 @@ import numpy as np
 from shapespline.errors import FormatError
 from shapespline.formats.chains import chained
 from shapespline.formats.entities import entities
+from shapespline.formats.splines import spline_pieces
 from shapespline.geometry import Outlines
 from shapespline.values import Arc, Piece
 
@@ -107,10 +108,13 @@ def _arc_curve(rhino3dm: Any, arc: Arc) -> Any:
 def read(path: Path) -> Outlines:
     """Curves of a 3dm file in a plane z = constant: lines, arcs, polylines, NURBS, joined ones.
 
+    Rational ones become arcs where they are parts of circles, else cubics within 1e-9 of their
+    size.
+
     Raises
     ------
     FormatError
-        If the file is no 3dm file, holds no curve, a rational one or one that is not plane.
+        If the file is no 3dm file, holds no curve, or one that is not plane.
     """
     import rhino3dm
 
@@ -142,22 +146,15 @@ def _pieces(rhino3dm: Any, curve: Any) -> list[Piece]:
     if isinstance(curve, rhino3dm.ArcCurve):
         return [_arc_piece(curve)]
     spline = curve.ToNurbsCurve()
-    if spline is None or spline.IsRational:
-        raise FormatError(
-            "the file holds a rational curve (a conic); in Rhino, rebuild it or convert"
-            " it to a non-rational curve of degree 3 first"
-        )
-    points = _flat([spline.Points[index] for index in range(len(spline.Points))])
-    inner = np.array([spline.Knots[index] for index in range(len(spline.Knots))])
-    degree = spline.Degree
-    knots = np.concatenate([inner[:1], inner, inner[-1:]])
-    clamped = (knots[: degree + 1] == knots[0]).all() and (knots[-degree - 1 :] == knots[-1]).all()
-    if not clamped or not 1 <= degree <= 9:
-        raise FormatError("the file holds a curve that is not clamped, or of a degree above 9")
-    knots = (knots - knots[0]) / (knots[-1] - knots[0])
-    without_inner = len(points) == degree + 1
-    kind = "spline" if not without_inner else "line" if degree == 1 else "bezier"
-    return [Piece(kind, degree, knots, points)]
+    if spline is None:
+        raise FormatError("the file holds a curve that rhino3dm cannot make a NURBS curve of")
+    poles = [spline.Points[index] for index in range(len(spline.Points))]
+    weights = [pole.W for pole in poles]
+    if not all(weights):
+        raise FormatError("the file holds a curve with a weight of 0; rebuild it in Rhino first")
+    points = _flat([rhino3dm.Point3d(p.X / p.W, p.Y / p.W, p.Z / p.W) for p in poles])
+    inner = [spline.Knots[index] for index in range(len(spline.Knots))]
+    return spline_pieces(spline.Degree, [inner[0], *inner, inner[-1]], points, weights)
 
 
 def _arc_piece(curve: Any) -> Piece:

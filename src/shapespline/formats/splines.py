@@ -1,19 +1,19 @@
 """Splines as files hold them, made into pieces: any knots, clamped or not, with weights or without.
 
-Rational curves become cubics: a spline of this package has no weights.
+Rational curves become arcs where they are parts of circles, else cubics: a spline of this package
+has no weights.
 """
 
 from __future__ import annotations
 
-from functools import cache
-from math import comb
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats.cubics import halves
-from shapespline.formats.pieces import bezier
+from shapespline.formats.pieces import bezier, joined_arcs
+from shapespline.formats.rational import arc_of, product
 from shapespline.values import BSplineCurve, Piece, check_degree, clamped_ends
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ MOST_HALVINGS = 12
 def spline_pieces(
     degree: int, knots: ArrayLike, control_points: ArrayLike, weights: ArrayLike | None = None
 ) -> list[Piece]:
-    """The pieces of a spline: itself, or cubics within 1e-9 of its size if it is rational.
+    """The pieces of a spline: itself, or arcs and cubics within 1e-9 of its size if it is rational.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def spline_pieces(
         raise FormatError(f"a spline cannot be used: {error}") from error
     tolerance = RATIONAL_TOLERANCE * float(np.hypot(*np.ptp(points, axis=0)))
     spans = np.concatenate([above, below], axis=2)
-    return [bezier(cubic) for span in spans for cubic in _cubics(span, tolerance, MOST_HALVINGS)]
+    return joined_arcs([piece for span in spans for piece in _pieces(span, tolerance)])
 
 
 def _checked(knots: FloatArray, degree: int) -> FloatArray:
@@ -86,6 +86,15 @@ def _checked(knots: FloatArray, degree: int) -> FloatArray:
     if not (np.isfinite(knots).all() and (np.diff(knots) >= 0).all() and domain[0] < domain[-1]):
         raise InvalidInputError("its knots must be finite, not decrease and span a domain")
     return knots
+
+
+def _pieces(span: FloatArray, tolerance: float) -> list[Piece]:
+    """An arc if a rational Bezier is one, else cubics."""
+    points = span[:, :2] / span[:, 2:]
+    arc = arc_of(span, RATIONAL_TOLERANCE * float(np.hypot(*np.ptp(points, axis=0))))
+    if arc is not None:
+        return [arc]
+    return [bezier(cubic) for cubic in _cubics(span, tolerance, MOST_HALVINGS)]
 
 
 def _cubics(span: FloatArray, tolerance: float, halvings: int) -> Iterator[FloatArray]:
@@ -102,27 +111,11 @@ def _cubics(span: FloatArray, tolerance: float, halvings: int) -> Iterator[Float
     cubic = np.array([points[0], points[0] + begin / 3, points[-1] - end / 3, points[-1]])
     # About the first point, so that its place costs no accuracy.
     moved = span[:, :2] - w[:, None] * points[0]
-    product = _product(cubic - points[0], w) - _product(np.ones((4, 1)), moved)
-    if float(np.hypot(*product.T).max()) <= tolerance * w.min():
+    off = product(cubic - points[0], w) - product(np.ones((4, 1)), moved)
+    if float(np.hypot(*off.T).max()) <= tolerance * w.min():
         yield cubic
     elif halvings == 0:
         raise FormatError("a rational spline has weights so uneven that no cubics can follow it")
     else:
         for half in halves(span):
             yield from _cubics(half, tolerance, halvings - 1)
-
-
-def _product(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Bernstein coefficients of the product of two polynomials, shape (p + q + 1, k)."""
-    p, q = len(one) - 1, len(other) - 1
-    other = other.reshape(len(other), -1)
-    result = np.zeros((p + q + 1, max(one.shape[1], other.shape[1])))
-    for i in range(p + 1):
-        for j in range(q + 1):
-            result[i + j] += _share(p, i, q, j) * one[i] * other[j]
-    return result
-
-
-@cache
-def _share(p: int, i: int, q: int, j: int) -> float:
-    return comb(p, i) * comb(q, j) / comb(p + q, i + j)
