@@ -169,6 +169,15 @@ def test_rounding_to_three_decimals_opens_nothing():
         assert vertices(chain)[0] == vertices(chain)[-1]
 
 
+def test_an_arc_that_all_but_closes_is_a_circle():
+    for gap in (1e-11, 1e-7, 1e-6):
+        (found,) = chained([Piece.of_arc(Arc((1, 2), 3.0, 0.5, gap - FULL_TURN))])
+        assert found[0].arc.is_circle
+        assert (found[0].control_points[0] == found[0].control_points[-1]).all()
+    (found,) = chained([Piece.of_arc(Arc((1, 2), 3.0, 0.5, 0.9 * FULL_TURN))])
+    assert not found[0].arc.is_circle
+
+
 def test_ends_that_almost_meet_are_said_once():
     gap, corners = 0.01, [(0, 0), (100, 0), (100, 60), (0, 60)]
     lines = [line(corners[k], (corners[k - 1][0], corners[k - 1][1] + gap)) for k in range(4)]

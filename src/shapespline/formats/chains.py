@@ -11,7 +11,7 @@ from shapespline.errors import FormatError, SkippedContentWarning, caller_level
 from shapespline.formats.file_order import loops_in_order
 from shapespline.formats.gaps import say_of_gaps
 from shapespline.formats.junctions import joints
-from shapespline.formats.pieces import closed_up, size_of
+from shapespline.formats.pieces import closed_up, ring, size_of
 from shapespline.formats.repeats import repeated
 from shapespline.geometry import backwards
 
@@ -137,9 +137,8 @@ def _end_to_end(parts: Sequence[_Chain], *, closed: bool) -> _Chain:
     for part in parts:
         begin = pieces[-1].control_points[-1] if pieces else None
         pieces += [part.pieces[0].meeting(begin=begin), *part.pieces[1:]]
-    if closed:
-        pieces[-1] = pieces[-1].meeting(end=pieces[0].control_points[0])
-    return _Chain([run for part in parts for run in part.runs], closed_up(pieces))
+    pieces = closed_up(ring(pieces) if closed else pieces)
+    return _Chain([run for part in parts for run in part.runs], pieces)
 
 
 def _with_shared_sides(chains: list[_Chain], again: list[_Chain], near: float) -> list[_Chain]:

@@ -67,7 +67,10 @@ def read(path: Path) -> Outlines:
     Warns
     -----
     SkippedContentWarning
-        If there are entities that are no curves, such as text, or heights that differ.
+        If there are entities that are no curves, such as text, that repeat others, or heights that
+        differ.
+    OpenOutlinesWarning
+        If ends of open outlines almost meet.
     """
     document = _document(path)
     runs: list[list[Piece]] = []

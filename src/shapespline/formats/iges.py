@@ -56,6 +56,13 @@ def read(path: Path) -> Outlines:
     ------
     FormatError
         If the file is no IGES file, holds no curve, or one that is not plane.
+
+    Warns
+    -----
+    SkippedContentWarning
+        If curves that repeat others were left out.
+    OpenOutlinesWarning
+        If ends of open outlines almost meet.
     """
     lines = path.read_bytes().splitlines()
     # Fixed columns: the letter of the section is the 73rd character of every line.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,8 +40,17 @@ def closed_up(pieces: Sequence[Piece]) -> list[Piece]:
         kept.pop()
     gap = kept[-1].control_points[-1] - kept[0].control_points[0]
     if (len(kept) > 1 or kept[0].degree > 1) and np.hypot(*gap) <= near:
-        kept[-1] = kept[-1].meeting(end=kept[0].control_points[0])
+        kept = ring(kept)
     return joined_arcs(kept)
+
+
+def ring(pieces: Sequence[Piece]) -> list[Piece]:
+    """The pieces with the end of the last one at the beginning of the first, an arc alone whole."""
+    begin, arc = pieces[0].control_points[0], pieces[0].arc
+    if len(pieces) > 1 or arc is None:
+        return [*pieces[:-1], pieces[-1].meeting(end=begin)]
+    whole = replace(arc, sweep=float(np.copysign(FULL_TURN, arc.sweep)))
+    return [Piece.of_arc(whole, begin=begin, end=begin)]
 
 
 def joined_arcs(pieces: list[Piece]) -> list[Piece]:

@@ -115,6 +115,13 @@ def read(path: Path) -> Outlines:
     ------
     FormatError
         If the file is no 3dm file, holds no curve, or one that is not plane.
+
+    Warns
+    -----
+    SkippedContentWarning
+        If curves that repeat others were left out.
+    OpenOutlinesWarning
+        If ends of open outlines almost meet.
     """
     import rhino3dm
 

@@ -74,6 +74,13 @@ def read(path: Path) -> Outlines:
     ------
     FormatError
         If the file is no STEP file, holds no curve, or one that is not plane.
+
+    Warns
+    -----
+    SkippedContentWarning
+        If curves that repeat others were left out.
+    OpenOutlinesWarning
+        If ends of open outlines almost meet.
     """
     data = path.read_bytes()
     if b"ISO-10303-21" not in data[:1000]:
