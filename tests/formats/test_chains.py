@@ -224,8 +224,8 @@ def test_a_crumb_between_two_ends_opens_nothing():
 
 
 def test_small_outlines_far_from_the_origin_of_a_drawing_are_none_the_less_joined():
-    small = [line(*(piece.control_points + 1e7)) for piece in sides(0, 0)]
-    assert areas(chained([*small, line((0, 0), (1, 0))])) == [0, 100]
+    small = [line(*(piece.control_points + 1e7)) for piece in [*sides(0, 0), *sides(1, 1, 8)]]
+    assert areas(chained([*small, line((0, 0), (1, 0))])) == [0, 64, 100]
 
 
 def test_a_piece_that_is_a_ring_itself_stays_alone():

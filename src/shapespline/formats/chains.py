@@ -75,7 +75,7 @@ def chained(runs: Sequence[Sequence[Piece]], name: str) -> list[Sequence[Piece]]
     drawn = [run for loop in loops for run in loop]
     order = drawn + sorted(set(range(len(given))).difference(drawn))
     # What stands in a loop is what others repeat.
-    first = repeated([given[run] for run in order], near)
+    first = repeated([given[run] for run in order], MEETING)
     alone = [_Chain([run], pieces) for run, pieces in enumerate(given)]
     rest = range(len(drawn), len(order))
     chains = [_end_to_end([alone[run] for run in loop], closed=True) for loop in loops]
@@ -150,7 +150,7 @@ def _with_shared_sides(chains: list[_Chain], again: list[_Chain], near: float) -
         used = {run for chain in closed for run in chain.runs}
         loose = [chain for chain in loose if used.isdisjoint(chain.runs)]
     found = closed + loose
-    same = repeated([chain.pieces for chain in found], near)
+    same = repeated([chain.pieces for chain in found], MEETING)
     return [chain for number, chain in enumerate(found) if same[number] == number]
 
 

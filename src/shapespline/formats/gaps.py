@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.errors import OpenOutlinesWarning, caller_level
-from shapespline.formats.places import LARGEST_PART
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,6 +17,8 @@ if TYPE_CHECKING:
 
 # Of the size of the drawing: ends nearer than this may have been meant to meet (FMT-13).
 ALMOST = 1e-3
+# Of the extent of both outlines: dashes and hatches are drawn apart by more.
+LARGEST_PART = 0.1
 
 
 def say_of_gaps(outlines: Sequence[Sequence[Piece]], near: float, size: float, name: str) -> None:

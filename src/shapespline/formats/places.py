@@ -12,8 +12,9 @@ if TYPE_CHECKING:
     from shapespline.typing import BoolArray, IntArray
     from shapespline.values import Piece
 
-# Of the extent of a run: its ends are taken for no place farther off, however large the drawing.
-LARGEST_PART = 0.1
+# Of the extent of a run: its ends are moved no farther, however large something far off makes the
+# drawing. Three decimals join what is longer than a hundred of the last of them.
+LARGEST_PART = 0.01
 
 
 class Places(NamedTuple):

@@ -18,15 +18,16 @@ if TYPE_CHECKING:
 SAME_KNOT = 1e-6
 
 
-def repeated(runs: Sequence[Sequence[Piece]], near: float) -> IntArray:
+def repeated(runs: Sequence[Sequence[Piece]], part: float) -> IntArray:
     """For each run the first one that it repeats, itself if there is none.
 
     Parameters
     ----------
     runs : sequence of sequences of Piece
         Those that end where they begin may begin elsewhere.
-    near : float
-        Control points this near each other are one.
+    part : float
+        Control points within this part of the extent of a run are one: of the drawing it would
+        take small things for each other wherever something lies far off.
 
     Examples
     --------
@@ -42,10 +43,11 @@ def repeated(runs: Sequence[Sequence[Piece]], near: float) -> IntArray:
     keys = [tuple(run) for run in runs]
     found = np.array([known.setdefault(key, number) for number, key in enumerate(keys)], dtype=int)
     which = np.array(list(known.values()), dtype=int)
-    boxes = np.array([_box(runs[k]) for k in which])
-    pairs = which[cKDTree(boxes).query_pairs(near, p=np.inf, output_type="ndarray")]
-    for one, other in pairs[np.lexsort(pairs.T[::-1])].tolist():
-        if found[other] == other and found[one] == one and _same(runs[one], runs[other], near):
+    boxes = np.array([_box(run) for run in runs])
+    near = part * np.hypot(*(boxes[:, 2:] - boxes[:, :2]).T)
+    pairs = cKDTree(boxes[which]).query_pairs(float(near.max()), p=np.inf, output_type="ndarray")
+    for one, other in sorted(which[pairs].tolist()):
+        if (found[[one, other]] == (one, other)).all() and _same(runs[one], runs[other], near[one]):
             found[other] = one
     return found[found]
 
