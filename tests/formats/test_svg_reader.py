@@ -166,6 +166,74 @@ def test_lengths_with_units_are_exact(drawn):
     assert points(found)[1][1] == pytest.approx([192, -66], rel=1e-14)
 
 
+def boxes(outlines):
+    return [[round(side, 9) for side in fit.bounds] for fit in exact_drawing(outlines)]
+
+
+def test_percentages_are_parts_of_the_view_box(drawn):
+    found = drawn(
+        '<rect x="10%" y="10%" width="50%" height="50%"/><circle cx="50%" cy="50%" r="10%"/>'
+        '<use href="#s" x="5%" y="10%"/><defs><rect id="s" width="1%" height="1%"/></defs>',
+        'viewBox="3 4 200 100"',
+    )
+    radius = 10 * math.sqrt((2**2 + 1**2) / 2)  # of the diagonal over the root of two
+    assert boxes(found) == [
+        pytest.approx(box, abs=1e-8)
+        for box in (
+            [20, 48, 120, 98],
+            [100 - radius, 58 - radius, 100 + radius, 58 + radius],
+            [10, 97, 12, 98],
+        )
+    ]
+    page = drawn('<rect width="100%" height="100%"/>', 'width="40" height="30"')
+    assert boxes(page) == [[0, 0, 40, 30]]
+
+
+@pytest.mark.parametrize(
+    ("attributes", "expected"),
+    [
+        ('x="10" y="5"', [11, 22, 13, 23]),
+        ('x="10" y="5" width="20" height="10" viewBox="1 1 4 4"', [15, 20, 20, 22.5]),
+        ('width="20" height="10" viewBox="0 0 4 4" preserveAspectRatio="none"', [5, 22.5, 15, 25]),
+        ('width="20" height="10" viewBox="0 0 4 4" preserveAspectRatio="xMaxYMin"',
+         [12.5, 22.5, 17.5, 25]),
+        ('width="20" height="10" viewBox="0 0 4 4" preserveAspectRatio="xMidYMax slice"',
+         [5, 25, 15, 30]),
+        ('x="50%" width="25%" height="50%"', [21, 27, 23, 28]),
+    ],
+)  # fmt: skip
+def test_viewports_in_viewports(drawn, attributes, expected):
+    found = drawn(f'<svg {attributes}><rect x="1" y="2" width="2" height="1"/></svg>')
+    assert boxes(found) == [expected]
+
+
+def test_percentages_in_a_viewport_are_parts_of_it(drawn):
+    found = drawn('<svg x="10" width="20" height="10"><rect width="50%" height="50%"/></svg>')
+    assert boxes(found) == [[10, 25, 20, 30]]
+
+
+@pytest.mark.parametrize(
+    ("attributes", "expected"),
+    [
+        ('width="100mm" height="50mm" preserveAspectRatio="none"', [10, 5, 90, 45]),
+        ('width="100mm" height="50mm"', [5, 5, 45, 45]),
+        ('width="100mm" height="50mm" preserveAspectRatio="xMidYMid slice"', [10, 10, 90, 90]),
+        ('width="400" height="100" preserveAspectRatio="none"', [4, 1, 36, 9]),
+    ],
+)
+def test_a_page_may_stretch_its_view_box(drawn, attributes, expected):
+    found = drawn('<rect x="1" y="1" width="8" height="8"/>', f'{attributes} viewBox="0 0 10 10"')
+    assert boxes(found) == [expected]
+    assert found.frame.width == pytest.approx(10 / 8 * (expected[2] - expected[0]))
+
+
+def test_a_stretched_circle_is_an_ellipse(drawn):
+    page = 'width="40mm" height="20mm" viewBox="0 0 10 10" preserveAspectRatio="none"'
+    fit = exact_drawing(drawn('<circle cx="5" cy="5" r="4"/>', page)).fits[0]
+    x, y = (fit.spline(np.linspace(0, 1, 999)) - (20, 10)).T
+    assert np.abs(np.hypot(x / 4, y / 2) - 4).max() <= 1.1e-9 * 4
+
+
 def test_what_is_not_drawn_is_not_read(drawn):
     hidden = [
         path("M0 0h1v1z", fill="none"),

@@ -76,7 +76,8 @@ def read(path: Path) -> Outlines:
     if height is None:
         y = np.concatenate([piece.control_points[:, 1] for pieces in curves for piece in pieces])
         height = float(y.min() + y.max())
-    scale, shift = np.diag([page.scale, -page.scale]), np.array([0.0, height * page.scale])
+    across, down = page.scale
+    scale, shift = np.diag([across, -down]), np.array([0.0, height * down])
     turned = [[piece.moved(scale, shift) for piece in pieces] for pieces in curves]
     return Outlines(turned, page.frame, page.unit)
 
