@@ -70,6 +70,34 @@ def test_sub_paths_and_what_follows_a_close(drawn):
     assert points(found, 2) == [[[10.0, 20.0], [15.0, 15.0]]]
 
 
+@pytest.mark.parametrize(
+    ("style", "closed"),
+    [
+        ({}, True),
+        ({"fill": "#fe0", "stroke": "black"}, True),
+        ({"style": "fill:url(#gradient)"}, True),
+        ({"fill": "none", "stroke": "black"}, False),
+        ({"fill": "transparent", "stroke": "black"}, False),
+        ({"fill": "#00000000", "stroke": "black"}, False),
+        ({"fill-opacity": "0", "stroke": "black"}, False),
+    ],
+)
+def test_what_is_filled_is_closed(drawn, style, closed):
+    found = drawn(path("M1 1L9 1L9 9M20 2Q25 9 30 2M5 20L6 21", **style))
+    assert [fit.closed for fit in exact_drawing(found)] == [closed, closed, False]
+    area = 32 + 2 / 3 * 0.5 * 10 * 7  # a triangle, and two thirds of the one around a parabola
+    assert exact_drawing(found).area == pytest.approx(area if closed else 0.0)
+    polyline = " ".join(f'{name}="{value}"' for name, value in style.items())
+    found = drawn(f'<polyline points="1,1 9,1 9,9" {polyline}/>')
+    assert exact_drawing(found).fits[0].closed == closed
+
+
+def test_open_curves_of_ours_stay_open(tmp_path):
+    open_ones = Drawing([fit_of(wave(9, 3)), fit_of(wave(9, 1))], frame=ViewBox(-20, -20, 60, 60))
+    again = round_trip(open_ones, tmp_path / "open.svg")
+    assert not any(fit.closed for fit in again)
+
+
 def arc_points(d, n=200):
     """Points of an arc by the library, and the control points that we read."""
     (shape,) = [e for e in svgelements.Path(d) if isinstance(e, svgelements.Arc)]
@@ -81,7 +109,7 @@ def arc_points(d, n=200):
 @pytest.mark.parametrize("flags", ["0 0", "0 1", "1 0", "1 1"])
 def test_arcs_are_within_a_billionth(drawn, rotation, flags):
     d = f"M5 5A7 3 {rotation} {flags} 15 8"
-    fit = exact_drawing(drawn(path(d))).fits[0]
+    fit = exact_drawing(drawn(path(d, fill="none", stroke="red"))).fits[0]
     expected = arc_points(d) * [1, -1] + [0, 30]
     found = np.sqrt(nearest(fit.spline, expected).distances_sq)
     assert found.max() <= 1.2e-9 * 7  # 1.1e-9 of the longer half axis, and the library's rounding
@@ -99,7 +127,8 @@ def test_the_curve_of_a_circle_is_round_to_a_billionth(drawn):
 def test_shapes(drawn):
     found = drawn(
         '<rect x="1" y="2" width="3" height="4"/><line x1="1" y1="1" x2="2" y2="3" stroke="red"/>'
-        '<polyline points="0,0 1,1 2,0"/><polygon points="5 5 6 6 7 5"/><ellipse rx="3" ry="1"/>'
+        '<polyline points="0,0 1,1 2,0" fill="none" stroke="red"/>'
+        '<polygon points="5 5 6 6 7 5"/><ellipse rx="3" ry="1"/>'
         '<rect x="10" y="10" width="6" height="4" rx="1"/>'
     )
     drawing = exact_drawing(found)

@@ -1,7 +1,8 @@
 """SVG drawings as exact curves: every path and shape, transforms and units, by svgelements.
 
-What is drawn is read: the centre lines of strokes and the borders of fills. Hidden elements,
-elements painted with nothing, definitions that nobody uses and text, pictures and effects are not.
+What is drawn is read: the borders of fills, and the centre lines of strokes without one. Hidden
+elements, elements painted with nothing, definitions that nobody uses and text, pictures and effects
+are not.
 :mod:`shapespline.formats.svg_tree` prepares the document.
 """
 
@@ -16,7 +17,8 @@ import numpy as np
 
 from shapespline.errors import FormatError, SkippedContentWarning, caller_level
 from shapespline.formats.elliptic import elliptical_arc
-from shapespline.formats.pieces import bezier, closed_up
+from shapespline.formats.pieces import SAME_END, bezier, closed_up
+from shapespline.formats.svg_paint import paint_of
 from shapespline.formats.svg_tree import prepared
 from shapespline.geometry import Outlines
 
@@ -29,16 +31,15 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
     from shapespline.values import Piece
 
-UNPAINTED = ("none", "transparent")
-
 
 def read(path: Path) -> Outlines:
     """Read the outlines of an SVG drawing.
 
     Lines, arcs of circles and Beziers are exact; arcs of ellipses become cubics within a billionth
-    of their size. y is turned over within the view box, which is the frame. Where width or height
-    have a unit of length (mm, cm, in, pt, pc, Q), coordinates are in that unit, otherwise they are
-    those of the view box, "px". Colours are not kept: an outline inside another one counts as its
+    of their size. A sub-path that is filled is closed by a line, as it is when painted; one with
+    fill="none" stays as it is. y is turned over within the view box, which is the frame. Where
+    width or height have a unit of length (mm, cm, in, pt, pc, Q), coordinates are in that unit,
+    otherwise they are those of the view box, "px". Colours are not kept: an outline inside another one counts as its
     hole.
 
     Parameters
@@ -90,8 +91,11 @@ def _sub_paths(root: ElementTree.Element) -> Iterator[list[Piece]]:
     try:
         elements = SVG.parse(text, reify=False, on_error="raise").elements()
         for element in elements:
-            if isinstance(element, Shape) and _is_visible(element):
-                yield from _pieces_of(element)
+            if not isinstance(element, Shape) or not _is_shown(element):
+                continue
+            paint = paint_of(element)
+            if paint.fill or paint.stroke:
+                yield from _pieces_of(element, paint.fill is not None)
     except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError) as error:
         # What the library stumbles over is an error of the document.
         raise FormatError(f"a path or shape cannot be understood: {error}") from error
@@ -99,33 +103,48 @@ def _sub_paths(root: ElementTree.Element) -> Iterator[list[Piece]]:
         raise FormatError("the drawing is nested too deeply") from None
 
 
-def _is_visible(shape: Shape) -> bool:
-    values = shape.values
-    painted = any(
-        str(values.get(name, default)).strip().lower() not in UNPAINTED
-        for name, default in (("fill", "black"), ("stroke", "none"))
-    )
-    shown = values.get("visibility", "visible") not in ("hidden", "collapse")
-    return painted and shown and str(values.get("opacity", "1")).strip() not in ("0", "0%")
+def _is_shown(shape: Shape) -> bool:
+    return str(shape.values.get("opacity", "1")).strip() not in ("0", "0%")
 
 
-def _pieces_of(shape: Shape) -> Iterator[list[Piece]]:
+def _pieces_of(shape: Shape, filled: bool) -> Iterator[list[Piece]]:
     """Pieces of each sub-path of an element."""
     from svgelements import Close, Move
 
+    close = _filled_up if filled else closed_up
     m = shape.transform
     axes, origin = np.array([[m.a, m.c], [m.b, m.d]]), np.array([m.e, m.f])
     pieces: list[Piece] = []
     for segment in shape.segments(transformed=False):
         if isinstance(segment, Move):
-            yield closed_up(pieces)
+            yield close(pieces)
             pieces = []
             continue
         pieces += [piece.moved(axes, origin) for piece in _pieces_of_segment(segment)]
         if isinstance(segment, Close):
-            yield closed_up(pieces)
+            yield close(pieces)
             pieces = []
-    yield closed_up(pieces)
+    yield close(pieces)
+
+
+def _filled_up(pieces: list[Piece]) -> list[Piece]:
+    """A sub-path as it is filled: closed by a line (SVG 2, 13.4.1), unless it holds no area."""
+    points = [point for piece in pieces for point in piece.control_points]
+    if pieces and not _on_a_line(np.array(points)):
+        pieces = [*pieces, bezier([points[-1], points[0]])]
+    return closed_up(pieces)
+
+
+def _on_a_line(points: FloatArray) -> bool:
+    """Whether points lie on a line, but for a billionth of their extent."""
+    offsets = points - points[0]
+    size = float(np.abs(offsets).max())
+    if size == 0.0:
+        return True
+    offsets = offsets / size
+    far = offsets[np.argmax(np.hypot(*offsets.T))]
+    beside = np.abs(offsets @ np.array([-far[1], far[0]]))
+    return bool(beside.max() <= SAME_END * (far @ far))
 
 
 def _pieces_of_segment(segment: PathSegment) -> list[Piece]:
