@@ -144,7 +144,8 @@ def test_a_circle_is_converted_to_a_circle(tmp_path):
     circle = ezdxf.readfile(tmp_path / "out.dxf").modelspace().query("CIRCLE").first
     assert (circle.dxf.center.xyz[:2], circle.dxf.radius) == ((3.0, 4.0), 2.0)
     svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><circle cx="4" cy="5" r="2"/>'
-    svg += '<g transform="rotate(20) scale(0.5)"><path d="M1 1A2 2 0 0 1 5 1"/></g>'
+    svg += '<g transform="rotate(20) scale(0.5)" fill="none" stroke="red">'
+    svg += '<path d="M1 1A2 2 0 0 1 5 1"/></g>'
     svg += '<ellipse cx="2" cy="2" rx="1" ry="0.5"/></svg>'
     read = ss.read(io.BytesIO(svg.encode()), format=".svg")
     arcs = [[piece.arc and piece.arc.radius for piece in fit.pieces] for fit in read]
@@ -189,7 +190,7 @@ def test_flat_and_empty_arcs_are_read(tmp_path):
     assert [piece.kind for piece in fit.pieces] == ["line", "line", "arc"]
     assert max(piece.twin_error for piece in fit.pieces) < 3e-9  # a billionth of 2500
     svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">'
-    svg += '<path d="M1 1A2 2 0 0 1 1 1L5 5A0 2 0 0 1 7 5"/></svg>'
+    svg += '<path d="M1 1A2 2 0 0 1 1 1L5 5A0 2 0 0 1 7 5" fill="none" stroke="red"/></svg>'
     (read,) = ss.read(io.BytesIO(svg.encode()), format=".svg")
     assert [piece.kind for piece in read.pieces] == ["line", "line"]
 

@@ -10,6 +10,7 @@ import pytest
 import svgelements
 from tests.support.make_fit import blob, fit_of, nested, wave
 
+import shapespline as ss
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats import cubics as beziers
 from shapespline.formats import svg_writer as subject
@@ -207,17 +208,14 @@ def test_without_a_frame_the_box_holds_the_strokes(tmp_path):
     data = subject.encode(Drawing([fit_of(curve)]), stroke_width=1.5)
     x, y, width, height = view_box(data)
     (segments,) = sub_paths(data, tmp_path)
-    points = sampled(segments, 400).reshape(-1, 2)
+    points = sampled(segments, 400).reshape(-1, 2)  # svgelements counts from the view box
     low, high = points.min(axis=0), points.max(axis=0)
-    assert (x, y) == (0.0, 0.0)
     margins = np.concatenate([low, (width, height) - high])
     # 2 % of the longer side (20 for the wave) and the stroke; sampling may miss an extreme.
     assert margins.min() >= 0.4 + 1.5 - 1e-9
     assert margins.max() <= 0.4 + 1.5 + 1e-3
-    exact = curve(np.linspace(0, 1, 50))
-    x_shift = curve.control_points[0, 0] - margins[0]
-    found = points[:, 0].min() + x_shift
-    assert abs(found - exact[:, 0].min()) < 1e-9
+    begin = (x + points[0, 0], y + height - points[0, 1])  # y runs down within the view box
+    np.testing.assert_allclose(begin, curve.control_points[0], rtol=0, atol=1e-9)
 
 
 def test_far_from_the_origin_the_file_is_near_it():
@@ -226,6 +224,24 @@ def test_far_from_the_origin_the_file_is_near_it():
     data = subject.encode(Drawing([fit_of(far)])).decode()
     numbers = re.findall(r"-?\d[\d.e-]*", data.split(' d="')[1])
     assert max(abs(float(number)) for number in numbers) < 25
+    # As far as the corner of the view box to the last digit: both cancel in any precision.
+    begin = data.split('viewBox="')[1].split()[:2]
+    assert f'<g transform="translate({" ".join(begin)})">' in data
+
+
+@pytest.mark.parametrize("place", [(3.0, -4.0), (5e5, 5e6), (-1e-3, 2e9)])
+@pytest.mark.parametrize("unit", [None, "mm", "in", "m"])
+def test_places_come_back(tmp_path, place, unit):
+    """Those of drawings without a frame, too."""
+    curve = wave(8, 3)
+    moved = BSplineCurve(curve.knots, curve.control_points + np.array(place), 3)
+    before = Drawing([fit_of(moved)], unit=unit)
+    ss.write(tmp_path / "placed.svg", before)
+    after = ss.read(tmp_path / "placed.svg", unit=unit)
+    # Each of four sums and of four scalings rounds a coordinate once.
+    bound = 8 * EPS * np.abs(moved.control_points).max()
+    for mine, theirs in zip(before.bounds, after.bounds, strict=True):
+        assert abs(mine - theirs) <= bound
 
 
 def test_extremes_of_cubics_against_dense_samples():

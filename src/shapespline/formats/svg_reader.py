@@ -39,8 +39,8 @@ def read(path: Path) -> Outlines:
     of their size. A sub-path that is filled is closed by a line, as it is when painted; one with
     fill="none" stays as it is. y is turned over within the view box, which is the frame. Where
     width or height have a unit of length (mm, cm, in, pt, pc, Q), coordinates are in that unit,
-    otherwise they are those of the view box, "px". Colours are not kept: an outline inside another one counts as its
-    hole.
+    otherwise they are those of the view box, "px". Colours are not kept: an outline inside another
+    one counts as its hole.
 
     Parameters
     ----------

@@ -31,19 +31,31 @@ if TYPE_CHECKING:
 PAGE_UNITS = (PIXEL, "mm", "cm", "in", "pt", "pc", "Q")
 # Of the longer side: the border around a drawing without a frame, and the width of a stroke.
 MARGIN, STROKE = 0.02, 0.0025
+# View boxes that begin so many times their size from the origin are far: there coordinates in
+# single precision are off by a fortieth of a pixel of a screen of 4000 (FMT-11).
+FAR = 100.0
 LINKS = ' xmlns:xlink="http://www.w3.org/1999/xlink"'
 
 
 class Placement(NamedTuple):
-    """Where data go: x to ``x - x_shift``, y to ``y_top - y``; and the view box, y down."""
+    """The view box, y down, and where its points stand in the file.
 
-    x_shift: float
-    y_top: float
+    Attributes
+    ----------
+    view_box : ViewBox
+    origin : tuple of float
+        What coordinates count from: the origin of the data, or the corner of a view box that is
+        far from it.
+    """
+
     view_box: ViewBox
+    origin: tuple[float, float]
 
     def __call__(self, points: FloatArray) -> FloatArray:
-        """Points of the data as points of the file, shape (..., 2)."""
-        return np.stack([points[..., 0] - self.x_shift, self.y_top - points[..., 1]], axis=-1)
+        """Points of the data as points of the file, shape (..., 2): mirrored in the view box."""
+        x, y = self.origin
+        top = 2 * self.view_box.y + self.view_box.height
+        return np.stack([points[..., 0] - x, top - points[..., 1] - y], axis=-1)
 
 
 def encode(
@@ -57,9 +69,10 @@ def encode(
 
     Closed curves are filled by the even-odd rule, black if they have no colour of their own; open
     ones are stroked and unfilled, strokes of known width by a round pen of this width. y is
-    turned over once. With a frame the view box is the frame and coordinates stay within it; without
-    one the view box begins at (0, 0) and is the bounding box of the curves with a small margin, so
-    that coordinates far from the origin (maps) survive programs that draw in single precision.
+    turned over once, within the view box: the frame, or without one the bounding box of the curves
+    with a small margin. Coordinates are those of the data, so that they read back the same; of a
+    view box far from the origin (maps) they count from its corner, in a group that is moved there,
+    so that they survive programs that draw in single precision.
     Coordinates are written with the shortest digits that read back to the same double.
 
     Parameters
@@ -124,6 +137,9 @@ def encode(
         f"{LINKS if tiled else ''}{_page(box, drawing.unit)}"
         f' viewBox="{" ".join(map(_number, box))}">',
     ]
+    moved = placement.origin != (0.0, 0.0)
+    if moved:
+        lines.append(f'<g transform="translate({_pair(placement.origin)})">')
     if tiled:
         lines += _underlay(width)
     for group in paths:
@@ -140,6 +156,8 @@ def encode(
         lines += ["</g>", "</g>"]
     if band is not None:
         lines += [_band_path(fit, band, placement) for fit in drawing if fit.uncertainty]
+    if moved:
+        lines.append("</g>")
     lines.append("</svg>\n")
     return "\n".join(lines).encode("utf-8")
 
@@ -180,19 +198,17 @@ def _band_path(fit: Fit, level: float, placement: Placement) -> str:
 
 
 def _placement(frame: ViewBox | None, pieces: list[FloatArray], stroke_width: float) -> Placement:
-    """Mirror within the frame, or move the bounding box of the curves to the origin."""
-    if frame is not None:
-        if not (frame.width > 0 and frame.height > 0 and np.isfinite(frame).all()):
-            raise FormatError(f"the frame must be finite and have an area, got {tuple(frame)}")
-        return Placement(0.0, 2 * frame.y + frame.height, frame)
-    extreme = np.concatenate([turning_points(cubics) for cubics in pieces])
-    low, high = extreme.min(axis=0), extreme.max(axis=0)
-    longer = float((high - low).max()) or 1.0
-    margin = _rounded(MARGIN * longer) + stroke_width
-    width, height = (high - low + 2 * margin).tolist()
-    return Placement(
-        float(low[0]) - margin, float(high[1]) + margin, ViewBox(0.0, 0.0, width, height)
-    )
+    """The frame, or the bounding box of the curves, as a view box."""
+    if frame is None:
+        extreme = np.concatenate([turning_points(cubics) for cubics in pieces])
+        low, high = extreme.min(axis=0), extreme.max(axis=0)
+        longer = float((high - low).max()) or 1.0
+        margin = _rounded(MARGIN * longer) + stroke_width
+        frame = ViewBox(*(low - margin).tolist(), *(high - low + 2 * margin).tolist())
+    elif not (frame.width > 0 and frame.height > 0 and np.isfinite(frame).all()):
+        raise FormatError(f"the frame must be finite and have an area, got {tuple(frame)}")
+    far = max(abs(frame.x), abs(frame.y)) > FAR * max(frame.width, frame.height)
+    return Placement(frame, (frame.x, frame.y) if far else (0.0, 0.0))
 
 
 # Text
@@ -229,7 +245,7 @@ def _arc_commands(piece: Piece, placement: Placement) -> Iterator[str]:
         yield f"A{radius} {radius} 0 0 {int(arc.sweep < 0)} {_pair(end)}"
 
 
-def _pair(point: FloatArray) -> str:
+def _pair(point: FloatArray | tuple[float, float]) -> str:
     return f"{_number(point[0])} {_number(point[1])}"
 
 
