@@ -42,7 +42,7 @@ class DroppedPointsWarning(UserWarning):
 
 
 class SkippedContentWarning(UserWarning):
-    """Parts of a file that are no outlines were left out."""
+    """Parts of a file were left out: no outlines, or how areas lie partly over each other."""
 
 
 class OpenOutlinesWarning(UserWarning):

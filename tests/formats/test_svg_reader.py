@@ -201,7 +201,7 @@ def boxes(outlines):
 
 def test_percentages_are_parts_of_the_view_box(drawn):
     found = drawn(
-        '<rect x="10%" y="10%" width="50%" height="50%"/><circle cx="50%" cy="50%" r="10%"/>'
+        '<rect x="10%" y="10%" width="50%" height="50%"/><circle cx="80%" cy="50%" r="10%"/>'
         '<use href="#s" x="5%" y="10%"/><defs><rect id="s" width="1%" height="1%"/></defs>',
         'viewBox="3 4 200 100"',
     )
@@ -210,7 +210,7 @@ def test_percentages_are_parts_of_the_view_box(drawn):
         pytest.approx(box, abs=1e-8)
         for box in (
             [20, 48, 120, 98],
-            [100 - radius, 58 - radius, 100 + radius, 58 + radius],
+            [160 - radius, 58 - radius, 160 + radius, 58 + radius],
             [10, 97, 12, 98],
         )
     ]

@@ -18,6 +18,7 @@ import numpy as np
 from shapespline.errors import FormatError, SkippedContentWarning, caller_level
 from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import SAME_END, bezier, closed_up
+from shapespline.formats.svg_areas import SubPath, nested_as_painted
 from shapespline.formats.svg_paint import paint_of
 from shapespline.formats.svg_tree import prepared
 from shapespline.geometry import Outlines
@@ -39,8 +40,8 @@ def read(path: Path) -> Outlines:
     of their size. A sub-path that is filled is closed by a line, as it is when painted; one with
     fill="none" stays as it is. y is turned over within the view box, which is the frame. Where
     width or height have a unit of length (mm, cm, in, pt, pc, Q), coordinates are in that unit,
-    otherwise they are those of the view box, "px". Colours are not kept: an outline inside another
-    one counts as its hole.
+    otherwise they are those of the view box, "px". Colours are not kept, but tell holes: an outline
+    inside another one is its hole where the colour that is seen changes across it.
 
     Parameters
     ----------
@@ -49,7 +50,7 @@ def read(path: Path) -> Outlines:
     Returns
     -------
     Outlines
-        A sub-path each, in the order of drawing.
+        A sub-path each, in the order of drawing, with their nesting.
 
     Raises
     ------
@@ -60,19 +61,30 @@ def read(path: Path) -> Outlines:
     Warns
     -----
     SkippedContentWarning
-        If there is text, a picture, a clip path or a mask: those are left out.
+        If there is text, a picture, a clip path, a mask or a white ground: those are left out; and
+        if areas lie partly over each other.
     """
     page = prepared(path.read_bytes())
-    if page.skipped:
+    paths = list(_sub_paths(page.root))
+    nested = nested_as_painted(paths)
+    skipped = [*page.skipped, "white areas on white"] if nested.white else page.skipped
+    if skipped:
         warnings.warn(
-            f"{path.name}: no outlines and left out: {', '.join(page.skipped)}; convert text to"
-            " paths and apply clips in the drawing program",
+            f"{path.name}: no outlines and left out: {', '.join(skipped)}; convert text to paths"
+            " and apply clips in the drawing program",
             SkippedContentWarning,
             stacklevel=caller_level(),
         )
-    curves = [pieces for pieces in _sub_paths(page.root) if pieces]
-    if not curves:
+    if not nested.kept:
         raise FormatError("the drawing holds no visible path or shape")
+    if nested.crossing:
+        warnings.warn(
+            f"{path.name}: areas that lie partly over each other are neither united nor cut; do so"
+            " in the drawing program",
+            SkippedContentWarning,
+            stacklevel=caller_level(),
+        )
+    curves = [paths[k].pieces for k in nested.kept]
     height = page.turning_height
     if height is None:
         y = np.concatenate([piece.control_points[:, 1] for pieces in curves for piece in pieces])
@@ -80,22 +92,24 @@ def read(path: Path) -> Outlines:
     across, down = page.scale
     scale, shift = np.diag([across, -down]), np.array([0.0, height * down])
     turned = [[piece.moved(scale, shift) for piece in pieces] for pieces in curves]
-    return Outlines(turned, page.frame, page.unit)
+    return Outlines(turned, page.frame, page.unit, nested.parents)
 
 
-def _sub_paths(root: ElementTree.Element) -> Iterator[list[Piece]]:
-    """Pieces of every sub-path that is drawn, in the coordinates of the view box, y down."""
+def _sub_paths(root: ElementTree.Element) -> Iterator[SubPath]:
+    """Every sub-path that is drawn, in the coordinates of the view box, y down."""
     from svgelements import SVG, Shape
 
     text = io.BytesIO(ElementTree.tostring(root))
     try:
         elements = SVG.parse(text, reify=False, on_error="raise").elements()
-        for element in elements:
+        for number, element in enumerate(elements):
             if not isinstance(element, Shape) or not _is_shown(element):
                 continue
             paint = paint_of(element)
             if paint.fill or paint.stroke:
-                yield from _pieces_of(element, paint.fill is not None)
+                for pieces in _pieces_of(element, paint.fill is not None):
+                    if pieces:
+                        yield SubPath(pieces, number, paint)
     except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError) as error:
         # What the library stumbles over is an error of the document.
         raise FormatError(f"a path or shape cannot be understood: {error}") from error

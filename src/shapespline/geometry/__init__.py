@@ -26,6 +26,8 @@ from shapespline.geometry.moving import (
 )
 from shapespline.geometry.nearest import PointsByX, nearest, nondecreasing
 from shapespline.geometry.nesting import containing, parents_of, signed_area
+from shapespline.geometry.nearest import nearest, nondecreasing
+from shapespline.geometry.nesting import all_containing, containing, parents_of, signed_area
 from shapespline.geometry.normal_motion import curve_motion, unit_normals
 from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
@@ -46,6 +48,7 @@ __all__ = [
     "Outlines",
     "PointsByX",
     "Source",
+    "all_containing",
     "arc_polyline",
     "as_drawing",
     "backwards",

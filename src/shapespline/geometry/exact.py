@@ -37,15 +37,19 @@ class Outlines:
         The view box.
     unit : str, optional
         Of the coordinates, one of :data:`shapespline.units.UNITS`, if known.
+    parents : sequence of int, optional
+        For each outline the one directly around it, -1 for none, where the file tells more of it
+        than where they lie.
     """
 
     curves: Sequence[Sequence[Piece]]
     frame: ViewBox | None = None
     unit: str | None = None
+    parents: Sequence[int] | None = None
 
 
 def exact_drawing(outlines: Outlines, *, sampling: float | None = None) -> Drawing:
-    """The outlines as a drawing, nested by containment; open ones lie in nothing.
+    """The outlines as a drawing, nested by containment unless they say how; open ones in nothing.
 
     Parameters
     ----------
@@ -59,7 +63,9 @@ def exact_drawing(outlines: Outlines, *, sampling: float | None = None) -> Drawi
         If there is no outline, or a number in it is not usable.
     """
     fits = [exact_fit(pieces, sampling=sampling) for pieces in outlines.curves]
-    parents = parents_of([fit.contour for fit in fits])
+    parents = outlines.parents
+    if parents is None:
+        parents = parents_of([fit.contour for fit in fits])
     return Drawing(fits, parents, outlines.frame, outlines.unit)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from shapespline.typing import FloatArray, IntArray
     from shapespline.values import Contour
@@ -54,22 +54,63 @@ def containing(polygons: Sequence[FloatArray]) -> list[int]:
     >>> containing([square, 4 * square - 1, square + 5])
     [1, -1, -1]
     """
+    sides = _sides(polygons)
+    parents = [-1] * len(polygons)
+    for child, witnesses, boxed in _candidates(polygons):
+        parents[child] = _first_around(witnesses, sides, boxed)
+    return parents
+
+
+def all_containing(polygons: Sequence[FloatArray]) -> list[list[int]]:
+    """For each polygon all others around it, as `containing` tells it, the smallest first.
+
+    Parameters
+    ----------
+    polygons : sequence of ndarray, shape (n_i, 2)
+        Vertices of closed polygons in any order.
+
+    Examples
+    --------
+    >>> square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    >>> all_containing([square, 4 * square - 1, 9 * square - 2])
+    [[1, 2], [2], []]
+    """
+    sides = _sides(polygons)
+    around: list[list[int]] = [[] for _ in polygons]
+    for child, witnesses, boxed in _candidates(polygons):
+        first = _first_around(witnesses, sides, boxed)
+        if first < 0:
+            continue
+        # What lies around that one lies around this one.
+        known = {first, *around[first]}
+        others = [k for k in boxed[list(boxed).index(first) :].tolist() if k not in known]
+        if others:
+            held = _held(witnesses, [sides[k] for k in others])
+            known.update(k for k, n in zip(others, held, strict=True) if 2 * n > len(witnesses))
+        around[child] = [k for k in boxed.tolist() if k in known]
+    return around
+
+
+def _sides(polygons: Sequence[FloatArray]) -> list[FloatArray]:
+    """Both ends of each side, shape (n_i, 4)."""
+    return [np.hstack([points, np.roll(points, -1, axis=0)]) for points in polygons]
+
+
+def _candidates(polygons: Sequence[FloatArray]) -> Iterator[tuple[int, FloatArray, IntArray]]:
+    """Each polygon, its witnesses, and those that can hold it from the smallest; largest first."""
     if not polygons:
-        return []
+        return
     areas = np.array([abs(signed_area(points)) for points in polygons])
     order: IntArray = np.argsort(-areas, kind="stable")
     lows = np.array([polygons[i].min(axis=0) for i in order])
     highs = np.array([polygons[i].max(axis=0) for i in order])
-    sides = [np.hstack([points, np.roll(points, -1, axis=0)]) for points in polygons]
-    parents = [-1] * len(polygons)
     for rank, child in enumerate(order):
         boxed = (lows[:rank] <= lows[rank]).all(axis=1) & (highs[:rank] >= highs[rank]).all(axis=1)
         boxed &= areas[order[:rank]] > areas[child]  # no two contain each other
         points = polygons[child]
         witnesses = points[np.linspace(0, len(points), WITNESSES, endpoint=False).astype(int)]
-        # Areas fall, so the last container is the smallest one.
-        parents[child] = _first_around(witnesses, sides, order[:rank][boxed][::-1])
-    return parents
+        # Areas fall, so the last candidate is the smallest one.
+        yield int(child), witnesses, order[:rank][boxed][::-1]
 
 
 def _first_around(witnesses: FloatArray, sides: Sequence[FloatArray], outers: IntArray) -> int:

@@ -95,7 +95,8 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
             reference=reference,
         )
     if isinstance(value, Outlines):
-        return Outlines([_pieces(item, factor) for item in value.curves], frame, unit)
+        curves = [_pieces(item, factor) for item in value.curves]
+        return Outlines(curves, frame, unit, value.parents)
     fits = [_fit(item, factor) for item in value]
     return Drawing(
         fits,

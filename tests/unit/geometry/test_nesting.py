@@ -8,7 +8,8 @@ from tests.support.pieces import bezier, square
 from tests.support.shapes import on_circle
 
 from shapespline.geometry.exact import Outlines, exact_drawing
-from shapespline.geometry.nesting import containing, parents_of, signed_area
+from shapespline.geometry.nesting import all_containing, containing, parents_of, signed_area
+from shapespline.geometry.scaling import in_unit
 from shapespline.values.contour import Contour
 from shapespline.values.view_box import ViewBox
 
@@ -26,6 +27,15 @@ def test_nesting_by_containment_and_open_ones_in_nothing():
     drawing = exact_drawing(Outlines(curves, frame))
     assert drawing.parents == (-1, 2, -1, 1, -1)
     assert drawing.frame == frame
+
+
+def test_outlines_that_say_how_they_are_nested_are_so():
+    curves = [square(8), square(4, (2, 2))]
+    assert exact_drawing(Outlines(curves, parents=(-1, -1))).parents == (-1, -1)
+    assert exact_drawing(in_unit(Outlines(curves, unit="mm", parents=(-1, -1)), "in")).parents == (
+        -1,
+        -1,
+    )
 
 
 def test_outlines_that_touch_are_still_nested():
@@ -66,6 +76,16 @@ def test_boxes_in_boxes_in_any_order(seed):
     turned = [np.roll(boxes[k], rng.integers(4), axis=0)[:: rng.choice([-1, 1])] for k in order]
     wanted = [-1 if expected[k] < 0 else place[expected[k]] for k in order]
     assert containing(turned) == wanted
+    for around, parent in zip(all_containing(turned), wanted, strict=True):
+        assert around == ([] if parent < 0 else [parent, *all_containing(turned)[parent]])
+
+
+def test_all_that_lie_around_cross_each_other_or_not():
+    box = np.array([(0.0, 0.0), (4, 0), (4, 4), (0, 4)])
+    wide, high = box * (3, 1) + (0, 2), box * (1, 3) + (2, 0)
+    inner = 0.25 * box + (2.5, 2.5)
+    assert all_containing([wide, inner, 9 * box - 1, high]) == [[2], [3, 0, 2], [], [2]]
+    assert all_containing([]) == []
 
 
 def test_the_sign_of_an_area_is_that_of_the_way_round():
