@@ -33,7 +33,7 @@ def paint_of(shape: Shape) -> Paint:
     values = shape.values
     if str(values.get("visibility", "visible")).strip() in ("hidden", "collapse"):
         return Paint(None, None, False)
-    stroke = None if _is_zero(values, "stroke-width") else _color(values, "stroke", "none")
+    stroke = None if is_zero(values, "stroke-width") else _color(values, "stroke", "none")
     even_odd = str(values.get("fill-rule", "nonzero")).strip() == "evenodd"
     return Paint(_color(values, "fill", "black"), stroke, even_odd)
 
@@ -45,11 +45,12 @@ def _color(values: Mapping[str, object], name: str, default: str) -> str | None:
     if text.startswith("url("):
         return text
     color = Color(text)
-    if color.value is None or color.opacity == 0 or _is_zero(values, f"{name}-opacity"):
+    if color.value is None or color.opacity == 0 or is_zero(values, f"{name}-opacity"):
         return None
     return str(color.hexrgb)
 
 
-def _is_zero(values: Mapping[str, object], name: str) -> bool:
+def is_zero(values: Mapping[str, object], name: str) -> bool:
+    """Whether an opacity or a width is told to be 0, with whatever unit."""
     match = LENGTH.fullmatch(str(values.get(name, "1")))
     return match is not None and float(match[1]) == 0

@@ -71,7 +71,7 @@ def read(path: Path) -> Outlines:
     if skipped:
         warnings.warn(
             f"{path.name}: no outlines and left out: {', '.join(skipped)}; convert text to paths"
-            " and apply clips in the drawing program",
+            " and apply clips and styles in the drawing program",
             SkippedContentWarning,
             stacklevel=caller_level(),
         )
@@ -103,7 +103,7 @@ def _sub_paths(root: ElementTree.Element) -> Iterator[SubPath]:
     try:
         elements = SVG.parse(text, reify=False, on_error="raise").elements()
         for number, element in enumerate(elements):
-            if not isinstance(element, Shape) or not _is_shown(element):
+            if not isinstance(element, Shape):
                 continue
             paint = paint_of(element)
             if paint.fill or paint.stroke:
@@ -115,10 +115,6 @@ def _sub_paths(root: ElementTree.Element) -> Iterator[SubPath]:
         raise FormatError(f"a path or shape cannot be understood: {error}") from error
     except RecursionError:
         raise FormatError("the drawing is nested too deeply") from None
-
-
-def _is_shown(shape: Shape) -> bool:
-    return str(shape.values.get("opacity", "1")).strip() not in ("0", "0%")
 
 
 def _pieces_of(shape: Shape, filled: bool) -> Iterator[list[Piece]]:

@@ -1,13 +1,12 @@
 """The document of an SVG file made harmless and plain, before svgelements sees it.
 
-Refused: entities, and documents that grow without end. Resolved: the page and its units, lengths
-with a unit or per cent, viewports, elements that are used again. Left out: what is not drawn or is
-no outline.
+Refused: entities, and documents that grow without end. Resolved: style sheets, the page and its
+units, lengths with a unit or per cent, viewports, elements that are used again. Left out: what is
+not drawn or is no outline.
 """
 
 from __future__ import annotations
 
-import copy
 import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -15,6 +14,8 @@ from xml.etree import ElementTree
 from xml.parsers import expat
 
 from shapespline.errors import FormatError
+from shapespline.formats.svg_paint import is_zero
+from shapespline.formats.svg_styles import styled
 from shapespline.formats.svg_viewports import (
     LENGTHS,
     VIEWPORT,
@@ -39,12 +40,14 @@ MOST_ELEMENTS, MOST_NUMBERS = 200_000, 1_000_000
 DEEPEST = 200
 LONG = ("d", "points", "transform")
 NUMBER = re.compile(r"\d+")
+# Selectors that are named where they are left out.
+MOST_NAMED = 3
 # Class of what our writer draws beneath areas that share their borders.
 UNDERLAY = "underlay"
 HREFS = ("href", "{http://www.w3.org/1999/xlink}href")
 NAMED = {"text": "text", "image": "pictures", "foreignObject": "foreign content"}
 NOT_DRAWN = ("clipPath", "mask", "pattern", "marker", "linearGradient", "radialGradient", "filter",
-             "metadata", "script", "title", "desc", "symbol", "defs")  # fmt: skip
+             "metadata", "script", "style", "title", "desc", "symbol", "defs")  # fmt: skip
 CUTTING = {"clip-path": "clip paths", "mask": "masks"}
 
 
@@ -55,7 +58,8 @@ class Page:
     Attributes
     ----------
     root : Element
-        Without definitions, uses and view boxes: its coordinates are those of the view box, y down.
+        Without styles, definitions, uses and view boxes: its coordinates are those of the view
+        box, y down.
     turning_height : float or None
         y runs down: turned up it is this minus y. None without a page.
     scale : tuple of float
@@ -86,6 +90,7 @@ def prepared(data: bytes) -> Page:
     root = _parsed(data)
     if _tag(root) != "svg":
         raise FormatError(f"no SVG drawing: its first element is <{_tag(root)}>")
+    unread = styled(root)
     view_box = view_box_of(root)
     width, height = (page_length(root.get(name)) for name in ("width", "height"))
     if view_box is None and width is not None and height is not None:
@@ -95,6 +100,8 @@ def prepared(data: bytes) -> Page:
     plain = copier.plain(root, (), None if view_box is None else Size(*view_box[2:]))
     for name in VIEWPORT:
         plain.attrib.pop(name, None)
+    if unread:
+        copier.skipped[f"style rules for {', '.join(map(repr, unread[:MOST_NAMED]))}"] = None
     skipped = tuple(copier.skipped)
     if view_box is None:
         return Page(plain, None, (1.0, 1.0), None, PIXEL, skipped)
@@ -155,19 +162,15 @@ class _Copier:
             for name, value in element.attrib.items()
         }
         for name, words in CUTTING.items():
-            if name in attributes or f"{name}:" in attributes.get("style", "").replace(" ", ""):
+            if attributes.get(name, "none") != "none":
                 self.skipped[words] = None
         result = ElementTree.Element(str(element.tag), attributes)
-        result.text = element.text
         for child in element:
             tag = _tag(child)
+            if child.get("display") == "none" or is_zero(child.attrib, "opacity"):
+                continue
             if tag in NAMED:
                 self.skipped[NAMED[tag]] = None
-            elif tag == "defs":
-                # Style sheets may stand there.
-                result.extend(
-                    copy.deepcopy(style) for style in child.iter() if _tag(style) == "style"
-                )
             elif tag == "use":
                 result.extend(self._used(child, inside, size))
             elif tag == "svg":
