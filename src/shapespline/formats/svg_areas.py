@@ -115,14 +115,15 @@ class _Areas:
             k: _polygon(path.pieces) for k, path in enumerate(self.paths) if _is_closed(path.pieces)
         }
         largest = max((float(np.abs(points).max()) for points in found.values()), default=1.0)
-        return {k: np.round(points / largest / GRID) * GRID for k, points in found.items()}
+        # Without negative zeros: what coincides is told by its bytes.
+        return {k: np.round(points / largest / GRID) * GRID + 0.0 for k, points in found.items()}
 
     @cached_property
     def twins(self) -> dict[int, list[int]]:
         """For each closed one those that coincide with it, itself among them."""
         alike: dict[bytes, list[int]] = {}
         for k, points in self.polygons.items():
-            alike.setdefault(np.unique(points, axis=0).tobytes(), []).append(k)
+            alike.setdefault(points[np.lexsort(points.T)].tobytes(), []).append(k)
         return {k: group for group in alike.values() for k in group}
 
     @cached_property
