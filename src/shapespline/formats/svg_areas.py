@@ -48,8 +48,9 @@ class Nested(NamedTuple):
     ----------
     kept : list of int
         Places of those that are, in their order.
-    parents : list of int
-        For each of them the one directly around it among them, -1 for none.
+    parents : list of int or None
+        For each of them the one directly around it among them, -1 for none; None where their
+        places tell it.
     white : bool
         Whether areas were left out that are white on white.
     crossing : bool
@@ -58,9 +59,9 @@ class Nested(NamedTuple):
     """
 
     kept: list[int]
-    parents: list[int]
-    white: bool
-    crossing: bool
+    parents: list[int] | None
+    white: bool = False
+    crossing: bool = False
 
 
 class Top(NamedTuple):

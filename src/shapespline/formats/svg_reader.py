@@ -18,7 +18,7 @@ import numpy as np
 from shapespline.errors import FormatError, SkippedContentWarning, caller_level
 from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import SAME_END, bezier, closed_up
-from shapespline.formats.svg_areas import SubPath, nested_as_painted
+from shapespline.formats.svg_areas import Nested, SubPath, nested_as_painted
 from shapespline.formats.svg_paint import paint_of
 from shapespline.formats.svg_tree import prepared
 from shapespline.geometry import Outlines
@@ -66,7 +66,7 @@ def read(path: Path) -> Outlines:
     """
     page = prepared(path.read_bytes())
     paths = list(_sub_paths(page.root))
-    nested = nested_as_painted(paths)
+    nested = Nested([*range(len(paths))], None) if page.tiled else nested_as_painted(paths)
     skipped = [*page.skipped, "white areas on white"] if nested.white else page.skipped
     if skipped:
         warnings.warn(

@@ -69,6 +69,8 @@ class Page:
     unit : str
     skipped : tuple of str
         What was left out, in words.
+    tiled : bool
+        Whether our writer drew areas side by side, so that none is painted over another.
     """
 
     root: Element
@@ -77,6 +79,7 @@ class Page:
     frame: ViewBox | None
     unit: str
     skipped: tuple[str, ...]
+    tiled: bool
 
 
 def prepared(data: bytes) -> Page:
@@ -104,11 +107,11 @@ def prepared(data: bytes) -> Page:
         copier.skipped[f"style rules for {', '.join(map(repr, unread[:MOST_NAMED]))}"] = None
     skipped = tuple(copier.skipped)
     if view_box is None:
-        return Page(plain, None, (1.0, 1.0), None, PIXEL, skipped)
+        return Page(plain, None, (1.0, 1.0), None, PIXEL, skipped, copier.tiled)
     (across, down), unit = page_scale(root, view_box, width, height)
     x, y, wide, high = view_box
     frame = ViewBox(across * x, down * y, across * wide, down * high)
-    return Page(plain, 2 * y + high, (across, down), frame, unit, skipped)
+    return Page(plain, 2 * y + high, (across, down), frame, unit, skipped, copier.tiled)
 
 
 def _parsed(data: bytes) -> Element:
@@ -153,6 +156,7 @@ class _Copier:
     elements_left: int = MOST_ELEMENTS
     numbers_left: int = MOST_NUMBERS
     skipped: dict[str, None] = field(default_factory=dict)
+    tiled: bool = False
 
     def plain(self, element: Element, inside: tuple[str, ...], size: Size | None) -> Element:
         """A copy of what an element draws in a viewport of a size, lengths as numbers of pixels."""
@@ -196,6 +200,7 @@ class _Copier:
     def _used(self, use: Element, inside: tuple[str, ...], size: Size | None) -> list[Element]:
         """What a use draws: a group, or nothing."""
         if use.get("class") == UNDERLAY:  # of the areas that are drawn above it
+            self.tiled = True
             return []
         target = next((use.get(name) for name in HREFS if use.get(name)), "") or ""
         found = self.ids.get(target[1:]) if target.startswith("#") else None
