@@ -137,6 +137,7 @@ def _plate() -> bytes:
         "M40 46a9 9 0 1 1 8 0v10h-8z",
     ]
     drawn = "".join(f'<path d="{path}"/>' for path in paths)
+    drawn = f'<g fill="none" stroke="black" stroke-width="0.2">{drawn}</g>'
     return (
         '<svg xmlns="http://www.w3.org/2000/svg" width="118mm" height="78mm"'
         f' viewBox="0 0 118 78">{drawn}</svg>'
