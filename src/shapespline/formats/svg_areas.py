@@ -2,7 +2,7 @@
 
 A picture is painted element over element, by the fill rule of each. An outline across which the
 colour on top changes is seen, and lies in the next one around it that is: areas and holes in turn
-(FMT-12). White is the colour of the paper where anything else is painted.
+(FMT-15). White is the colour of the paper where anything else is painted.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 WHITE = "#ffffff"
 # Chords of a curve or a quarter of a circle and of a line, of which corners alone may lie on the
 # border of another area; and the grid of their ends as a part of the drawing: borders that two
-# areas share are the same chords either way round (FMT-12).
+# areas share are the same chords either way round (FMT-15).
 CHORDS, CHORDS_OF_A_LINE, GRID = 16, 4, 1e-7
-# Segments of a line that crosses itself beside which is asked how often it runs around (FMT-12).
+# Segments of a line that crosses itself beside which is asked how often it runs around (FMT-15).
 MOST_ASKED = 64
 
 

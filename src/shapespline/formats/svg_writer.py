@@ -32,7 +32,7 @@ PAGE_UNITS = (PIXEL, "mm", "cm", "in", "pt", "pc", "Q")
 # Of the longer side: the border around a drawing without a frame, and the width of a stroke.
 MARGIN, STROKE = 0.02, 0.0025
 # View boxes that begin so many times their size from the origin are far: there coordinates in
-# single precision are off by a fortieth of a pixel of a screen of 4000 (FMT-11).
+# single precision are off by a fortieth of a pixel of a screen of 4000 (FMT-14).
 FAR = 100.0
 LINKS = ' xmlns:xlink="http://www.w3.org/1999/xlink"'
 

@@ -25,8 +25,6 @@ from shapespline.geometry.moving import (
     transformed_fit,
 )
 from shapespline.geometry.nearest import PointsByX, nearest, nondecreasing
-from shapespline.geometry.nesting import containing, parents_of, signed_area
-from shapespline.geometry.nearest import nearest, nondecreasing
 from shapespline.geometry.nesting import all_containing, containing, parents_of, signed_area
 from shapespline.geometry.normal_motion import curve_motion, unit_normals
 from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
