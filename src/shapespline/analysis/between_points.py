@@ -27,6 +27,8 @@ AT_ENDS = 4
 MOST_BETWEEN = 32
 # What bulges by more than this part of its chord is no bend that the points resolve.
 MOST_BULGE = 0.1
+# A chord so many times as long as those beside it was drawn as a line.
+LONG_EDGE = 2.0
 
 
 def with_points_between(
@@ -89,13 +91,20 @@ def _filled(points: FloatArray, within: float, farthest: float, beyond: int = 0)
     off = width**2 * bend / 8.0
     parts = np.clip(np.ceil(np.sqrt(off / within)), 1, MOST_BETWEEN).astype(int)
     either, both = even[:-1] | even[1:], even[:-1] & even[1:]
-    parts[~np.where(off <= farthest, either, both & (off <= MOST_BULGE * width))] = 1
+    told = np.where(off <= farthest, either, both & (off <= MOST_BULGE * width))
+    parts[~told | _are_edges(width)] = 1
     at = np.repeat(np.arange(len(width)), parts)
     share = np.arange(len(at)) - np.repeat(np.cumsum(parts) - parts, parts)
     t = width[at] * share / parts[at]
     filled = z[at] + t * (velocity[at] + t * (second[at] + t * third[at]))
     filled = np.append(filled, z[-1])
     return np.column_stack([filled.real, filled.imag])
+
+
+def _are_edges(width: FloatArray) -> NDArray[np.bool_]:
+    """For each chord whether it is long beside both of its neighbours, as drawn edges are."""
+    around = np.concatenate([[0.0], width, [0.0]])
+    return np.asarray(width > LONG_EDGE * np.maximum(around[:-2], around[2:]))
 
 
 def _are_even(points: FloatArray) -> NDArray[np.bool_]:

@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 # all as far from each other as so many others are alike by chance in a hundredth of all noisy
 # outlines. So many vertices are looked at (ANA-19).
 ALIKE, WINDOW, MOST_VERTICES = 0.01, 8, 4096
-# So large a part of the vertices was drawn then (ANA-19).
-DRAWN_PART = 0.5
+# So large a part of the vertices was drawn then; teeth leave of cubics at least this part of their
+# short edges, where digits of a file that repeat themselves leave little (ANA-19).
+DRAWN_PART, STEP_PART = 0.5, 0.25
 # Steps along the axes are pixels if so many are multiples of one length, but for this part of it,
 # and the noise is less than so many of them. Their windows are alike sooner (ANA-19).
 PIXEL_PART, OFF_PIXEL, PIXELS_OF_NOISE, PIXEL_WINDOW = 0.95, 0.05, 2.0, 16
@@ -57,6 +58,8 @@ def are_drawn_vertices(points: FloatArray, closed: bool, noise: float) -> bool:
     points = points[:MOST_VERTICES]
     row = np.concatenate([points, points[:1]]) if closed else points
     edges = np.diff(row, axis=0)
+    if noise < STEP_PART * float(np.percentile(np.hypot(*edges.T), 10)):
+        return False
     if _is_of_pixels(edges, noise):
         is_drawn = _repeated(points, PIXEL_WINDOW, ALIKE * noise)
         if np.mean(_turns_back(edges, ALIKE * noise)) < TEETH_PART:

@@ -29,6 +29,8 @@ VERTEX_PART = 0.01
 # A band about the data is so many standard deviations wide. Noise that the source knows, a
 # picture's, is bounded and alike from point to point: three are enough.
 NOISE_BAND, ACCURACY_BAND = 4.0, 3.0
+# Bends of a few pixels leave so many times a picture's accuracy (FIT-37).
+LETTERS = 4.0
 
 
 # Steps of an outline are seen between means of so many points, a twentieth of few. They are short
@@ -52,8 +54,10 @@ class Resolution(NamedTuple):
     told: float = np.inf
 
 
-def resolution(contour: Contour) -> Resolution:
+def resolution(contour: Contour, *, of_picture: bool = False) -> Resolution:
     """What the points of a contour can show.
+
+    What is left of small letters ``of_picture`` is no noise, up to four times its accuracy.
 
     Examples
     --------
@@ -74,8 +78,8 @@ def resolution(contour: Contour) -> Resolution:
     least, most = (part * contour.box_diagonal for part in BOX_PARTS)
     floor = min(max(SAMPLING_PART * step, least), most)
     known = contour.accuracy or 0.0
-    if noise <= known:
-        return Resolution(noise, max(floor, ACCURACY_BAND * known), True)
+    if noise <= (LETTERS if of_picture else 1.0) * known:
+        return Resolution(noise, max(floor, ACCURACY_BAND * noise), True)
     band = max(floor, NOISE_BAND * noise)
     if band > floor:
         return Resolution(noise, band, False)

@@ -132,7 +132,10 @@ class DrawnPieces:
             return True
         contour, shown = problem.contour, self.estimation.shown
         found = two_sided_distance(joined(candidate.pieces, problem.request.style.degree), contour)
+        # What was not drawn is a curve like others, and those follow what clean points tell.
         farthest = beyond = FARTHEST * shown.band
+        if not drawn.is_told:  # a curve like others, and those follow what clean points tell
+            farthest = min(farthest, FARTHEST * shown.told)
         step = median(np.diff(contour.arc_length))
         accuracy = None if contour.level_line is None else contour.accuracy
         if accuracy is not None:

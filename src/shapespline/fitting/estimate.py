@@ -133,7 +133,7 @@ class Estimation:
         self.ordered = Contour.silently(
             contour.points[self.normalized.order], contour.closed, accuracy=contour.accuracy
         )
-        self.shown: Resolution = resolution(self.ordered)
+        self.shown: Resolution = resolution(self.ordered, of_picture=contour.level_line is not None)
         self._degree, self._monitor = problem.request.style.degree, monitor
         self._ends = problem.request.constraints.ends
         self.width = 1

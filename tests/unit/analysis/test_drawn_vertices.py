@@ -99,3 +99,10 @@ def test_exact_points_have_no_noise():
     polygon = np.cumsum(rng.normal(0, 1, (100, 2)), axis=0)
     assert noise_level(Contour(polygon, False)) > 0.1
     assert noise_level(Contour(polygon, False, accuracy=0.0)) == 0.0
+
+
+def test_digits_of_a_circle_are_noise():
+    # Rounded, it repeats itself eight times.
+    angle = 2 * np.pi * np.arange(90) / 90
+    circle = np.round(9.0 * np.column_stack([np.cos(angle), np.sin(angle)]), 2)
+    assert not scatter(Contour(circle, True)).of_vertices

@@ -67,7 +67,9 @@ def test_clean_outlines_stay_within_what_they_show(all_outlines):
     for name, contour in clean:
         fit = fit_curve(contour)
         assert fit.kept, name
-        assert fit.tolerance <= resolution(contour).band, name
+        band, step = resolution(contour).band, np.median(np.diff(contour.arc_length))
+        assert fit.max_distance <= band, name
+        assert fit.tolerance <= max(band, step), name  # corners lie between points
         assert fit.n_stored_points < 0.25 * len(contour), name
 
 
