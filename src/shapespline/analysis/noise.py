@@ -126,6 +126,7 @@ def left_out(contour: Contour) -> float:
 
     Examples
     --------
+    >>> from shapespline import Contour
     >>> t = 2 * np.pi * np.arange(60) / 60
     >>> circle = Contour(np.column_stack([np.cos(t), np.sin(t)]), closed=True)
     >>> bool(left_out(circle) < 1e-4)

@@ -58,9 +58,10 @@ def fit_curve(
     With a ``tolerance``: the fewest stored points that keep it, in both directions, as lines,
     Beziers and small splines or as one spline. With ``n_control_points``: one spline by least
     squares, control points and parameters together. With neither the curve is estimated: clean
-    points give the smallest curve within what they can show, a twentieth to a tenth of a per cent
-    of the box diagonal or the accuracy of their source; noisy ones a least-squares curve whose size
-    a criterion chooses, in pieces with corners and straight runs where the points tell of them.
+    points give the smallest curve within what they tell of each other, a hundredth to a tenth of a
+    per cent of the box diagonal, or within the accuracy of their source, and vertices that were
+    drawn themselves; noisy ones a least-squares curve whose size a criterion chooses, in pieces
+    with corners and straight runs where the points tell of them.
 
     Parameters
     ----------
