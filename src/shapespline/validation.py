@@ -67,6 +67,18 @@ def median(values: FloatArray) -> float:
     return 0.5 * (float(part[below]) + float(part[middle]))
 
 
+def smallest_of(values: FloatArray, part: float) -> float:
+    """The value that a part of all are not above, without numpy's percentile (PKG-08).
+
+    Examples
+    --------
+    >>> smallest_of(np.array([5.0, 1.0, 4.0, 2.0, 3.0]), 0.75)
+    4.0
+    """
+    k = int(part * (len(values) - 1))
+    return float(np.partition(values, k)[k])
+
+
 def distinct(*indices: IntArray) -> IntArray:
     """All of them, each once, sorted; numpy's own function imports masked arrays (PKG-08)."""
     return np.array(sorted({i for part in indices for i in part.tolist()}), dtype=np.int64)

@@ -120,6 +120,7 @@ def test_fitting_needs_neither_scipy_nor_masked_arrays():
         "t = np.linspace(0, 6, 90)\n"
         "c = ss.Contour(np.column_stack([t, np.sin(t)]), closed=False)\n"
         "fit = ss.fit_curve(c, tolerance=0.01)\n"
+        "sparse = ss.fit_curve(c)\n"
         "print(fit.kept, 'numpy.ma' in sys.modules)\n"  # PKG-08
         "fit = ss.optimize(c, ss.initial_curve(c, length=6))\n"
         "print(fit.hausdorff_distance, 'scipy' in sys.modules)\n"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.analysis.noise import EVEN_PART, FEWEST_TO_PREDICT, left_of
+from shapespline.validation import distinct
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def with_points_between(
     if closed:
         points = np.concatenate([points[corners[0] :], points[: corners[0] + 1]])
         cuts = corners - corners[0]
-    cuts = np.unique(np.concatenate([[0], cuts, [len(points) - 1]]))
+    cuts = distinct(np.array([0, len(points) - 1]), cuts)
     rows = []
     for a, b in pairwise(cuts.tolist()):
         run = points[a : b + 1]

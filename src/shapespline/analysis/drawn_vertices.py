@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.validation import median
+from shapespline.validation import median, smallest_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 ALIKE, WINDOW, MOST_VERTICES = 0.01, 8, 4096
 # So large a part of the vertices was drawn then; teeth leave of cubics at least this part of their
 # short edges, where digits of a file that repeat themselves leave little (ANA-19).
-DRAWN_PART, STEP_PART = 0.5, 0.25
+DRAWN_PART, STEP_PART, SHORT_EDGES = 0.5, 0.25, 0.1
 # Steps along the axes are pixels if so many are multiples of one length, but for this part of it,
 # and the noise is less than so many of them. Their windows are alike sooner (ANA-19).
 PIXEL_PART, OFF_PIXEL, PIXELS_OF_NOISE, PIXEL_WINDOW = 0.95, 0.05, 2.0, 16
@@ -58,7 +58,7 @@ def are_drawn_vertices(points: FloatArray, closed: bool, noise: float) -> bool:
     points = points[:MOST_VERTICES]
     row = np.concatenate([points, points[:1]]) if closed else points
     edges = np.diff(row, axis=0)
-    if noise < STEP_PART * float(np.percentile(np.hypot(*edges.T), 10)):
+    if noise < STEP_PART * smallest_of(np.hypot(*edges.T), SHORT_EDGES):
         return False
     if _is_of_pixels(edges, noise):
         is_drawn = _repeated(points, PIXEL_WINDOW, ALIKE * noise)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis.drawn_vertices import are_drawn_vertices
-from shapespline.validation import median
+from shapespline.validation import median, smallest_of
 
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray
@@ -31,7 +31,7 @@ FEWEST_OF_CURVE = 24
 # one that its neighbours tell.
 EVEN_PART, FEWEST_TO_PREDICT = 0.65, 5
 # So many of the points are no corners.
-PREDICTED_PERCENT = 75.0
+PREDICTED_PART = 0.75
 # A cubic fitted to a window: its slope in the middle, and what is left of every point.
 _POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
 _FIT = np.linalg.pinv(_POWERS)
@@ -141,7 +141,7 @@ def left_out(contour: Contour) -> float:
     along = points[3:-1] - points[1:-3]
     lengths = np.maximum(np.hypot(*along.T), np.finfo(float).tiny)
     across = np.abs(cubic[:, 0] * along[:, 1] - cubic[:, 1] * along[:, 0]) / (2.0 * lengths)
-    return float(np.percentile(across, PREDICTED_PERCENT))
+    return smallest_of(across, PREDICTED_PART)
 
 
 def bends_evenly(points: FloatArray) -> bool:
