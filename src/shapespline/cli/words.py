@@ -17,6 +17,7 @@ WORDS = (
         r"; go on from here with optimize\(contour, fit\)",
         "; take more points or a larger tolerance",
     ),
+    (r"; raise max_(?:iterations|evaluations)", ""),
     (r"\b(corners|form|ends|effort|unit|character)='([^']*)'", r"--\1 \2"),
     (r"\bsmoothness=(\d)", r"--smoothness \1"),
     (r"\btolerance=([^\s,;)]+)", r"--tolerance \1"),
@@ -43,6 +44,8 @@ def own_words(sentence: str) -> str:
     '--control-points must be at least degree + 1 = 4, got 3'
     >>> own_words("left out as noise: --min-area 0 (min_area=0) keeps them")
     'left out as noise: --min-area 0 keeps them'
+    >>> own_words("the iterations ran out before convergence; raise max_iterations")
+    'the iterations ran out before convergence'
     >>> own_words("corners and effort do not act with time_limit=3")
     'corners and effort do not act with --time-limit 3'
     >>> own_words("give more points or tolerance=0.0075 for a smooth curve")
