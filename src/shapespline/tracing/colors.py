@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from shapespline.geometry import signed_area
 from shapespline.monitor import silent
 from shapespline.tracing.border_lines import Bordering, drawn_borders
 from shapespline.tracing.borders import borders_of, rings_of
+from shapespline.tracing.clear_parts import on_clear
 from shapespline.tracing.color_edges import Seen, node_places, softened
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import noise_deviation
@@ -41,6 +42,13 @@ MARGIN = 2
 FAINT = 60.0
 
 
+class Inks(NamedTuple):
+    """The colours that areas are painted with, and the label of what is clear, if anything is."""
+
+    colors: FloatArray
+    ground: int | None
+
+
 def color_areas(
     image: ArrayLike,
     colors: int | str,
@@ -55,11 +63,17 @@ def color_areas(
 
     Of a picture that is not taken for evenly ``lit`` the light is told first.
 
-    Areas of fewer square pixels than ``min_area`` go to the neighbour with which they share most
-    border; if it is not given, as many as the noise of the picture asks for, without noise none.
+    What is clear is no area. Areas of fewer square pixels than ``min_area`` go to the neighbour
+    with which they share most border; if it is not given, as many as the noise of the picture asks
+    for, without noise none.
     """
     pixels = cropped(validated_pixels(image), crop)
-    pixels = _eight_bits(pixels if lit else evened(pixels, say))
+    clear = on_clear(pixels)
+    if clear is not None:
+        pixels = clear.pixels
+        colors = colors if colors == "auto" else int(colors) + 1
+    else:
+        pixels = _eight_bits(pixels if lit else evened(pixels, say))
     if blur:
         from scipy.ndimage import gaussian_filter
 
@@ -81,6 +95,8 @@ def color_areas(
             stacklevel=caller_level(),
         )
     say(f"following the borders of {len(palette.colors)} colours")
+    seen_colors = palette.colors if clear is None else clear.seen_colors(palette)
+    ground = None if clear is None else clear.label(palette)
     size = palette.labels.shape
     pixels, palette, margin = _with_margin(pixels, palette)
     borders = borders_of(palette.labels)
@@ -90,7 +106,7 @@ def color_areas(
     say(f"looking for the corners of {len(arcs)} borders")
     lines = drawn_borders(seen, Bordering(borders, arcs, rings, places))
     lines = [_within(line, margin, size) for line in lines]
-    return _shape(rings, arcs, lines, palette, ViewBox(0, 0, size[1], size[0]))
+    return _shape(rings, arcs, lines, Inks(seen_colors, ground), ViewBox(0, 0, size[1], size[0]))
 
 
 def _with_margin(
@@ -150,10 +166,10 @@ def _shape(
     rings: Sequence[Ring],
     arcs: Sequence[Arc],
     lines: Sequence[Line],
-    palette: Palette,
+    inks: Inks,
     frame: ViewBox,
 ) -> Shape:
-    """Areas by size, each with the holes in it after it."""
+    """Areas by size, each with the holes in it after it; without those of what is clear."""
     outlines = [ring.outline([line.points for line in lines], arcs) for ring in rings]
     areas = np.array([signed_area(points) for points in outlines])
     labels = np.array([ring.label for ring in rings])
@@ -164,8 +180,10 @@ def _shape(
     for index in np.argsort(-areas, kind="stable").tolist():
         if areas[index] <= 0:
             break
+        if labels[index] == inks.ground:
+            continue
         around = len(contours)
-        color = "#" + "".join(f"{round(value):02x}" for value in palette.colors[labels[index]])
+        color = "#" + "".join(f"{round(value):02x}" for value in inks.colors[labels[index]])
         for ring in [index, *np.flatnonzero(owner == index).tolist()]:
             level = rings[ring].outline([line.level_line for line in lines], arcs)
             contours.append(
