@@ -59,6 +59,8 @@ def with_points_between(
     (True, True)
     """
     points, closed = contour.points, contour.closed
+    if _are_dense(contour, corners, within):
+        return contour
     if closed and not len(corners):
         row = np.concatenate([points[-BEYOND:], points, points[: BEYOND + 1]])
         filled = _filled(row, within, farthest, min(BEYOND, len(points)))
@@ -75,6 +77,15 @@ def with_points_between(
         rows.append(filled[:-1])
     row = np.concatenate([*rows, points[-1:]])
     return Contour.silently(row[:-1] if closed else row, closed, accuracy=contour.accuracy)
+
+
+def _are_dense(contour: Contour, corners: IntArray, within: float) -> bool:
+    """Whether chords are near the curve as they are, told by second differences but in corners."""
+    row = contour.polyline if contour.closed else contour.points
+    bends = np.hypot(*(row[:-2] - 2.0 * row[1:-1] + row[2:]).T)
+    inner = corners[(corners > 0) & (corners <= len(bends))]
+    bends[inner - 1] = 0.0
+    return bool(bends.max(initial=0.0) <= 8.0 * within)
 
 
 def _filled(points: FloatArray, within: float, farthest: float, beyond: int = 0) -> FloatArray:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from shapespline.tracing.layer import strips
 from shapespline.tracing.pixels import full_scale, has_alpha
 
 if TYPE_CHECKING:
@@ -69,23 +70,37 @@ def on_clear(pixels: NDArray[Any]) -> OnClear | None:
     if not has_alpha(pixels):
         return None
     full = full_scale(pixels)
-    share = np.clip(pixels[..., -1:] / full, 0.0, 1.0)
-    is_visible = share[..., 0] >= HALF
-    if is_visible.all() or not is_visible.any():
+    strip = list(strips(pixels.shape))
+    visible = [_parts(pixels[rows], full)[1][..., 0] >= HALF for rows in strip]
+    n_visible = sum(np.count_nonzero(part) for part in visible)
+    if n_visible in (0, pixels.shape[0] * pixels.shape[1]):
         return None
-    flat = np.clip(pixels[..., :-1] / full, 0.0, 1.0) * WHITE
-    if flat.shape[2] == 1:
-        flat = np.repeat(flat, 3, axis=2)
-    ground = _farthest(flat[is_visible])
-    on_ground, on_paper = (
-        np.rint(own + (flat - own) * share).astype(np.uint8) for own in (ground, WHITE)
+    step = n_visible // MOST_ASKED + 1
+    ground = _farthest(
+        np.concatenate(
+            [
+                _parts(pixels[rows], full)[0][part][::step]
+                for rows, part in zip(strip, visible, strict=True)
+            ]
+        )
     )
+    on_ground, on_paper = (np.empty((*pixels.shape[:2], 3), dtype=np.uint8) for _ in range(2))
+    for rows in strip:
+        flat, share = _parts(pixels[rows], full)
+        on_ground[rows] = np.rint(ground + (flat - ground) * share)
+        on_paper[rows] = np.rint(WHITE + (flat - WHITE) * share)
     return OnClear(on_ground, on_paper, ground)
 
 
+def _parts(pixels: NDArray[Any], full: float) -> tuple[FloatArray, FloatArray]:
+    """Colours, 0 to 255 in three channels or one, and how opaque they are."""
+    share = np.clip(pixels[..., -1:] / full, 0.0, 1.0)
+    flat = np.clip(pixels[..., :-1] / full, 0.0, 1.0) * WHITE
+    return np.broadcast_to(flat, (*flat.shape[:2], 3)), share
+
+
 def _farthest(colors: FloatArray) -> FloatArray:
-    """Of pure colours, black and white the one that is farthest from all visible ones."""
-    seen = colors[:: len(colors) // MOST_ASKED + 1]
+    """Of pure colours, black and white the one that is farthest from all of some colours."""
     pure = WHITE * np.array(list(product((0.0, 1.0), repeat=3)))
-    least = [float(((seen - one) ** 2).sum(axis=1).min()) for one in pure]
+    least = [float(((colors - one) ** 2).sum(axis=1).min()) for one in pure]
     return np.asarray(pure[int(np.argmax(least))])

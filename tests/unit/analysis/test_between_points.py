@@ -53,3 +53,11 @@ def test_a_corner_that_nobody_named_is_not_swung_around():
 def test_few_points_are_left_as_they_are():
     contour = Contour([(0, 0), (1, 0.2), (2, 0)], closed=False)
     assert (with_points_between(contour, NONE, 1e-6, 1.0).points == contour.points).all()
+
+
+def test_dense_points_are_left_as_they_are():
+    contour = Contour(on_circle(400), True)
+    # A chord's sagitta is an eighth of the second difference, h^2.
+    sagitta = (2 * np.pi / 400) ** 2 / 8
+    assert with_points_between(contour, NONE, 1.01 * sagitta, 0.1) is contour
+    assert len(with_points_between(contour, NONE, 0.9 * sagitta, 0.1)) == 800
