@@ -3,6 +3,7 @@
     python -m benchmarks.estimation               the loop over ten seeds, and ten outlines
     python -m benchmarks.estimation --every 3     every third outline whose truth is known
     python -m benchmarks.estimation --shapes      eight shapes, few and many points, 0.1 to 2 %
+    python -m benchmarks.estimation --clean       a smooth curve without noise, and with little
 
 The truth is the clean outline; noise of so many per cent of the box diagonal, which is 100, is
 added to each coordinate. splprep is given the noise and the best of its smoothing factors in
@@ -237,15 +238,35 @@ def noise() -> None:
     print(f"\nclean: at most {max(steps):.4f} of the distance between points\n")
 
 
+def clean() -> None:
+    """Print the distance to the truth without noise and with little, the box diagonal 100."""
+    t = np.linspace(0, 2 * np.pi, TRUTH_POINTS, endpoint=False)
+    waves = 1 + 0.125 * np.sin(5 * t + 0.3)
+    curves = {
+        "ellipse": np.column_stack([np.cos(t), 0.6 * np.sin(t)]),
+        "wave": waves[:, None] * np.column_stack([np.cos(t), 0.8 * np.sin(t)]),
+    }
+    print("| | points | none | 0.01 % | 0.05 % | stored points |\n|---|---|---|---|---|---|")
+    for name, points in curves.items():
+        truth = scaled(ss.Contour(points, closed=True))
+        for count in (100, 500):
+            seen = ss.Contour(truth.points[:: TRUTH_POINTS // count], closed=True)
+            fits = [ss.fit_curve(shaken(seen, percent, 0)) for percent in (0.0, 0.01, 0.05)]
+            errors = " | ".join(f"{rms_to(truth, fit.spline):.4f}" for fit in fits)
+            stored = ", ".join(str(fit.n_stored_points) for fit in fits)
+            print(f"| {name} | {count} | {errors} | {stored} |", flush=True)
+
+
 def main() -> None:
     """Print every section."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--every", type=int, help="each so many-th outline; ten in all")
     parser.add_argument("--shapes", action="store_true", help="eight shapes, nothing else")
+    parser.add_argument("--clean", action="store_true", help="no noise and little, nothing else")
     chosen = parser.parse_args()
     warnings.simplefilter("ignore")
-    if chosen.shapes:
-        shapes()
+    if chosen.shapes or chosen.clean:
+        shapes() if chosen.shapes else clean()
         return
     noise()
     loop()
