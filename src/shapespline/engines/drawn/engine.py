@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,20 +16,13 @@ from shapespline.engines.drawn.ends import (
     nodes_of,
     sweep_of,
 )
+from shapespline.engines.drawn.estimated import MOST_WRONG, Estimated, estimated, settled
 from shapespline.engines.drawn.fillets import rows_with_fillets
 from shapespline.engines.drawn.joints import direction_at
-from shapespline.engines.drawn.judgement import (
-    HOPELESS,
-    LARGEST,
-    LEAST_SAID,
-    is_enough,
-    is_short,
-    misfitting,
-    repeated,
-    without_few,
-)
+from shapespline.engines.drawn.judgement import LARGEST, is_enough, is_short, without_few
 from shapespline.engines.drawn.merging import merged_arcs
 from shapespline.engines.drawn.model import Model
+from shapespline.engines.drawn.nearby import rows_nearby
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES, Search
@@ -59,9 +52,9 @@ FEWEST_POINTS = 12
 # A whole circle is within so many deviations in the mean (DRA-06), of measured points, whose errors
 # are independent, fewer (DRA-16).
 ROUND, ROUND_OF_POINTS = 2.0, 1.3
-# An outline of more elements than these that have fewer points each, or of which so many contradict
-# their points, is none that was drawn, which takes long to find out (DRA-10).
-MANY_ELEMENTS, POINTS_EACH, MOST_WRONG = 40, 5, 30
+# An outline of more elements than these that have fewer points each is none that was drawn, which
+# takes long to find out (DRA-10).
+MANY_ELEMENTS, POINTS_EACH = 40, 5
 # A picture is taken for drawn so many times less exactly than others where that saves so many
 # parameters a pixel: some renderers draw curves as polygons. Never by more than that part of a
 # pixel in the mean: not one of one bit. A free-form run counts once for so many pixels (DRA-13).
@@ -71,6 +64,8 @@ LEAST_SAVED, SAVED_PART = 6.0, 0.1
 # What such a telling holds in part only gives way to the exact one, unless that is so many times
 # longer, as chords of curves are (DRA-29).
 CHORDS = 1.33
+# Rows with more segments are found at that part of their price (DRA-38).
+FINER = 0.5
 # Data within so many steps of a node tell its direction.
 DIRECTION_STEPS = 4
 
@@ -115,21 +110,22 @@ def as_drawn(
             return Drawn((whole,), (), is_told=True, n_unknowns=3)
     ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
     for one, row, as_whole in _readings(seen, tolerance):
-        found = _of_row(one, row, ends, regularities, tolerance, whole=as_whole)
-        if found is not None:
-            return found
+        best = _of_row(one, row, ends, tolerance, whole=as_whole)
+        if best is None:
+            continue
+        if np.isinf(tolerance) and not one.pixel:
+            best = _cheapest(best, row)
+        model, found = best.model, best.found
+        if set(regularities) != set(NAMES):
+            model = Model.of(one, model.row, model, ends)
+            found = Search(model, regularities).run()
+        return _drawn(shared_anew(model), found, tolerance, best.told)
     return None
 
 
 def _of_row(
-    seen: Observed,
-    row: Segments,
-    ends: FloatArray | None,
-    regularities: Collection[str],
-    tolerance: float,
-    *,
-    whole: bool,
-) -> Drawn | None:
+    seen: Observed, row: Segments, ends: FloatArray | None, tolerance: float, *, whole: bool
+) -> Estimated | None:
     """Lines, arcs and free-form runs of segments; None if these are none that were drawn.
 
     ``whole`` takes them only if none of them is contradicted by its points.
@@ -145,21 +141,21 @@ def _of_row(
     while (fewer := without_few(model)) is not None and n_few < MOST_WRONG:
         model, n_few = Model.of(seen, fewer, model, ends), n_few + 1
     estimating = bool(np.isinf(tolerance))
-    best = _estimated(model, model.row, tolerance)
+    best = estimated(model, model.row, tolerance)
     if best is not None and estimating:
-        best = _settled(best, tolerance)
+        best = settled(best, tolerance)
     for filleted in () if seen.pixel else rows_with_fillets(model, estimating=estimating):
-        other = _estimated(model, filleted, tolerance)
+        other = estimated(model, filleted, tolerance)
         if other is not None:
             as_it_is = other.model.row is filleted
             if estimating:
-                other = _settled(other, tolerance)
+                other = settled(other, tolerance)
             best = other if best is None or (as_it_is and other.cost < best.cost) else best
     if best is not None:
-        best = _settled(best, tolerance)
+        best = settled(best, tolerance)
     as_read = best is not None and best.model.row is model.row
     for repeated_row in rows_repeated(seen, model.row if best is None else best.model.row):
-        other = _estimated(model, repeated_row, tolerance)
+        other = estimated(model, repeated_row, tolerance)
         if other is None or other.model.row is not repeated_row:
             continue
         if best is None or _is_preferred(other, best):
@@ -168,61 +164,34 @@ def _of_row(
             break
     if best is None or not (best.told or is_short(best.model)):
         return None
-    if whole and not as_read:
-        return None
-    model, found, told = best.model, best.found, best.told
-    if set(regularities) != set(NAMES):
-        model = Model.of(seen, model.row, model, ends)
-        found = Search(model, regularities).run()
-    return _drawn(shared_anew(model), found, tolerance, told)
+    return None if whole and not as_read else best
 
 
-class Estimated(NamedTuple):
-    """Elements with the regularities that they keep, and whether these tell of a drawing."""
+def _cheapest(best: Estimated, row: Segments) -> Estimated:
+    """The reading of measured points that costs least; ``best`` is the one of a row.
 
-    model: Model
-    found: list[Regularity]
-    told: bool
-
-    @property
-    def cost(self) -> float:
-        """Misfit and the price of what regularities leave free."""
-        return 0.5 * self.model.chi_sq + PRICE * self.model.n_free
-
-
-def _estimated(model: Model, row: Segments, tolerance: float) -> Estimated | None:
-    """The elements of segments under their regularities, those that fit badly left out."""
-    seen, ends, n_wrong = model.seen, model.ends, 0
-    while n_wrong < min(len(row.found), MOST_WRONG):
-        model = Model.of(seen, row, model, ends)
-        if not is_enough(row):
-            return None
-        bad = misfitting(model, tolerance, each_alone=True)  # which is soon done
-        if not bad:
-            found = Search(model, NAMES).run()
-            bad = misfitting(model, tolerance)
-            told = repeated(model, found) >= LEAST_SAID * (1.0 if not bad else HOPELESS)
-            if not bad:
-                return Estimated(model, found, told)
-            if not told and not is_short(model):
-                return None
-        row, n_wrong = supported(_without(row, bad), seen.closed), n_wrong + len(bad)
-    return None
-
-
-def _settled(best: Estimated, tolerance: float) -> Estimated:
-    """The estimate after points were shared anew, if that costs less.
-
-    Without a tolerance rows are compared as they are after that: one with an arc that has points of
-    its neighbours may seem the cheaper one (DRA-37).
+    Compared with that of a row of more segments; from the cheaper one on step by step (DRA-38).
     """
-    row = shared_anew(best.model).row
-    if row is best.model.row:
-        return best
-    other = _estimated(best.model, row, tolerance)
-    if other is None or other.model.row is not row or other.cost >= best.cost:
-        return best
-    return other
+    seen = best.model.seen
+    finer = segmented(seen, price=FINER * PRICE)
+    if (finer.first, finer.found) != (row.first, row.found):
+        other = _of_row(seen, finer, best.model.ends, np.inf, whole=False)
+        best = best if other is None else min(best, other, key=_whole_cost)
+    while True:
+        others = [best]
+        for near in rows_nearby(best.model):
+            other = estimated(best.model, near, np.inf)
+            if other is None or other.model.row is not near:
+                continue
+            if other.told or is_short(other.model):
+                others.append(settled(other, np.inf))
+        if (cheapest := min(others, key=_whole_cost)) is best:
+            return best
+        best = cheapest
+
+
+def _whole_cost(one: Estimated) -> float:
+    return one.whole_cost
 
 
 def _is_preferred(alike: Estimated, best: Estimated) -> bool:
@@ -285,12 +254,6 @@ def _whole_circle(seen: Observed) -> DrawnArc | None:
     arc = Arc((cx, cy), r, 0.0, float(np.copysign(2 * np.pi, signed_area(points))))
     begin = np.array([cx + r, cy])
     return DrawnArc(arc, begin, begin)
-
-
-def _without(row: Segments, bad: list[int]) -> Segments:
-    """The row with some segments free-form."""
-    found = tuple(s._replace(kind=FREE) if k in bad else s for k, s in enumerate(row.found))
-    return row._replace(found=found)
 
 
 def _drawn(model: Model, found: list[Regularity], tolerance: float, told: bool) -> Drawn:

@@ -6,7 +6,8 @@ for each smooth joint lets them win; but a fillet is told by its radius alone (D
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import cache
+from itertools import permutations
 from math import atan2, cos, inf, tan
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,7 +15,7 @@ import numpy as np
 
 from shapespline.engines.drawn.ends import data_length, off_by
 from shapespline.engines.drawn.joints import meeting, unit_of
-from shapespline.engines.drawn.segments import ARC, LINE, PRICE, SMOOTH, Segment
+from shapespline.engines.drawn.segments import ARC, FREE_OF_POINTS, LINE, PRICE, SMOOTH, Segment
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -32,12 +33,19 @@ FINER = np.linspace(0.85, 1.15, 13)
 # Points that an edge keeps, and that an arc has (DRA-24); without a tolerance, where arcs that were
 # found are tried as fillets, too, which short edges lie between (DRA-37).
 FEWEST, FEWEST_ESTIMATED = 5, 3
+# A fillet is tried alone if it leaves so many nats less than what lies there (DRA-38).
+LIKELY = 1.0
+# Radii that differ by a smaller part are one, but for rounding.
+ALIKE = 1e-6
+# An arc between two edges.
+FILLETED = [LINE, ARC, LINE]
 
 
 class Fillet(NamedTuple):
     """An arc instead of the segments between two edges, from a point of the row to another.
 
-    ``is_told`` if it leaves less than what lies there now, ``is_possible`` if it leaves anything.
+    ``is_told`` if it leaves less than what lies there now, ``is_possible`` if it leaves anything;
+    ``is_likely`` if it would leave less were its radius that of others, which costs nothing.
     """
 
     before: int
@@ -47,6 +55,7 @@ class Fillet(NamedTuple):
     end: int
     is_told: bool
     is_possible: bool
+    is_likely: bool
 
 
 def rows_with_fillets(model: Model, *, estimating: bool) -> Iterator[Segments]:
@@ -55,13 +64,68 @@ def rows_with_fillets(model: Model, *, estimating: bool) -> Iterator[Segments]:
     ``estimating`` without a tolerance.
     """
     fewest = FEWEST_ESTIMATED if estimating else FEWEST
-    best = cache(partial(_fillet, model, fewest=fewest, of_arcs=estimating))
+
+    @cache
+    def best(a: int, inner: tuple[int, ...], b: int) -> Fillet | None:
+        # An arc that takes points of its neighbours touches none.
+        of_arc = [model.kind(k) for k in inner] == [ARC]
+        if not all(k in model.at for k in inner) or (of_arc and not estimating):
+            return None
+        if not _are_short(model, a, inner, b):
+            return None
+        turn = _Turn.of(model, a, inner, b, fewest=fewest)
+        return None if turn is None else turn.best()
+
     told = _with_fillets(model, best, fewest, all_alike=False)
     alike = _with_fillets(model, best, fewest, all_alike=True)
     if told is not None:
         yield told
     if alike is not None and (told is None or alike.found != told.found):
         yield alike
+
+
+def rows_with_one_fillet(model: Model) -> Iterator[Segments]:
+    """Rows with a single fillet each, wherever one is likely."""
+    lines = {k for k in model.at if model.kind(k) == LINE}
+    for k in sorted(lines):
+        for m in range(MOST + 1):
+            between = _between(model, k, m)
+            if between is None or between[1] not in lines or not _are_short(model, k, *between):
+                continue
+            if [model.kind(inner) for inner in between[0]] == [ARC]:
+                continue
+            turn = _Turn.of(model, k, *between, fewest=FEWEST_ESTIMATED)
+            found = None if turn is None else turn.best()
+            if found is not None and found.is_likely:
+                row = _row_with(model, {k: found}, FEWEST_ESTIMATED)
+                if row is not None:
+                    yield row
+
+
+def rows_with_other_radii(model: Model) -> Iterator[Segments]:
+    """Rows with one fillet, or all that are equal, of the radius of others."""
+    turns: dict[int, tuple[_Turn, float]] = {}
+    for k in model.at:
+        between = _between(model, k, 1)
+        if between is None or not {k, between[0][0], between[1]} <= model.at.keys():
+            continue
+        kinds = [model.kind(one) for one in (k, *between[0], between[1])]
+        turn = _Turn.of(model, k, *between, fewest=FEWEST_ESTIMATED) if kinds == FILLETED else None
+        if turn is not None:
+            turns[k] = turn, float(model.x[model.at[between[0][0]] + 2])
+    radii: list[float] = []
+    for _, radius in turns.values():
+        if all(abs(radius - other) > ALIKE * other for other in radii):
+            radii.append(radius)
+    for radius, other in permutations(radii, 2):
+        alike = [k for k, (_, own) in turns.items() if abs(own - radius) <= ALIKE * radius]
+        fillets = {k: turns[k][0].of_radius(other) for k in alike}
+        likely = {k: one for k, one in fillets.items() if one.is_likely}
+        tried = [{k: one} for k, one in likely.items()]
+        for some in [*tried, likely] if len(likely) > 1 else tried:
+            row = _row_with(model, some, FEWEST_ESTIMATED)
+            if row is not None:
+                yield row
 
 
 def _with_fillets(
@@ -75,19 +139,19 @@ def _with_fillets(
 
     ``all_alike`` takes them for all shorter elements, though some are told by these as well.
     """
-    row, n, closed = model.row, len(model.row.found), model.seen.closed
     fillets: dict[int, Fillet] = {}
     edges: set[int] = set()
     gone: set[int] = set()
     lines = {k for k in model.at if model.kind(k) == LINE}
     for k in sorted(lines):
-        for m in range(min(MOST, n - 2), -1, -1):
-            inner, after = [(k + i) % n for i in range(1, m + 1)], (k + m + 1) % n
-            if after not in lines or (not closed and k + m + 1 >= n):
+        for m in range(MOST, -1, -1):
+            between = _between(model, k, m)
+            if between is None or between[1] not in lines:
                 continue
+            inner, after = between
             if not gone.isdisjoint((k, after)) or not (edges | gone).isdisjoint(inner):
                 continue
-            found = best(k, tuple(inner), after)
+            found = best(k, inner, after)
             if found is None:
                 continue
             if found.is_possible if all_alike and m > 0 else found.is_told:
@@ -95,8 +159,21 @@ def _with_fillets(
                 edges |= {k, after}
                 gone |= set(inner)
                 break
-    if not fillets:
+    return _row_with(model, fillets, fewest) if fillets else None
+
+
+def _between(model: Model, k: int, m: int) -> tuple[tuple[int, ...], int] | None:
+    """The m segments behind one, and the one after these; None if there are too few."""
+    n = len(model.row.found)
+    if m > n - 2 or (not model.seen.closed and k + m + 1 >= n):
         return None
+    return tuple((k + i) % n for i in range(1, m + 1)), (k + m + 1) % n
+
+
+def _row_with(model: Model, fillets: dict[int, Fillet], fewest: int) -> Segments | None:
+    """The row with fillets, by the edge before each; None if they leave too little of an edge."""
+    row, n, closed = model.row, len(model.row.found), model.seen.closed
+    gone = {k for one in fillets.values() for k in one.inner}
     moved = {one.after: one.end for one in fillets.values()}
     begins: list[int] = []
     kinds: list[int] = []
@@ -115,72 +192,137 @@ def _with_fillets(
     return row if all(j - i >= fewest for i, j, _ in row.found) else None
 
 
-def _fillet(
-    model: Model, a: int, inner: tuple[int, ...], b: int, *, fewest: int, of_arcs: bool
-) -> Fillet | None:
-    """The best one between two lines, if what lies there turns as it does.
-
-    ``of_arcs`` instead of an arc, too: one that takes points of its neighbours touches none.
-    """
-    if a == b or not all(k in model.at for k in inner):
-        return None
-    if not of_arcs and [model.kind(k) for k in inner] == [ARC]:
-        return None
+def _are_short(model: Model, a: int, inner: tuple[int, ...], b: int) -> bool:
+    """Whether what lies between two edges is shorter than these."""
     shorter = min(data_length(model, a), data_length(model, b))
-    if any(data_length(model, k) >= shorter for k in inner):
-        return None
-    along_a, along_b = (unit_of(float(model.x[model.at[k]])) for k in (a, b))
-    turn = _turn(along_a, along_b)
-    ways = [_way(model, k, along_a) for k in inner]
-    if not SMOOTH < abs(turn) < LARGEST_TURN or any(way * turn < -SMOOTH for way in ways):
-        return None
-    row, last = model.row, len(model.row.points) - 1
-    found = row.found
-    i = found[a].end
-    j = i + sum(found[k].end - found[k].begin for k in inner)
-    first = i - (found[a].end - found[a].begin) + fewest
-    index = np.arange(first, j + found[b].end - found[b].begin - fewest + 1)
-    points = row.points[index % last] if model.seen.closed else row.points[index]
-    middle = (i + j) // 2 - first
-    if not fewest <= middle <= len(points) - fewest:
-        return None
-    apex = points[middle - 1 : middle + 2].mean(axis=0)
-    corner = meeting(model, a, b, apex)
-    inward = np.array([-(along_a + along_b)[1], (along_a + along_b)[0]]) * np.sign(turn)
-    inward /= np.hypot(*inward)
-    half, depth = 0.5 * abs(turn), float((apex - corner) @ inward)
-    if depth <= 0.0:
-        return None
-    off_a, off_b = off_by(model, a, points) ** 2, off_by(model, b, points) ** 2
-    # What lies there now, of which a fillet saves all numbers but one; in a bare corner it takes
-    # two, since any of some corners may be blunted by chance.
-    at, least, saved = i - first, 0.0, -1 if inner else -2
-    for k in inner:
-        upto = at + found[k].end - found[k].begin
-        least += float((off_by(model, k, points[at:upto]) ** 2).sum())
-        at, saved = upto, saved + (2 if model.kind(k) == LINE else 3)
-    least += float(off_a[: i - first].sum() + off_b[at:].sum())
-    least += 2.0 * PRICE * saved * model.seen.deviation**2
-    before, after = (points[:middle] - corner) @ along_a, (points[middle:] - corner) @ along_b
+    return all(data_length(model, k) < shorter for k in inner)
 
-    def told_by(radius: float) -> tuple[float, int, int]:
+
+class _Turn(NamedTuple):
+    """What turns between two edges, of which each keeps ``fewest`` points.
+
+    ``points`` of both edges and between them are those of the row from ``first`` on. Edges meet in
+    ``corner``, ``half`` is half of the angle between them, radians, ``inward`` points to the centre
+    of a fillet; ``before`` and ``after`` are the points' stations on either edge from there.
+    ``largest`` is the radius that the points tell, or half of an edge allows where nothing lies
+    between. ``off`` are squares of distances from both edges, ``left`` those of what lies there now
+    and its price.
+    """
+
+    model: Model
+    edges: tuple[int, int]
+    inner: tuple[int, ...]
+    fewest: int
+    first: int
+    points: FloatArray
+    corner: FloatArray
+    inward: FloatArray
+    half: float
+    before: FloatArray
+    after: FloatArray
+    largest: float
+    off: tuple[FloatArray, FloatArray]
+    left: float
+
+    @classmethod
+    def of(
+        cls, model: Model, a: int, inner: tuple[int, ...], b: int, *, fewest: int
+    ) -> _Turn | None:
+        """Between lines a and b; None if what lies there does not turn as a fillet does."""
+        if a == b:
+            return None
+        along_a, along_b = (unit_of(float(model.x[model.at[k]])) for k in (a, b))
+        turn = _turn(along_a, along_b)
+        ways = [_way(model, k, along_a) for k in inner if k in model.at]
+        if not SMOOTH < abs(turn) < LARGEST_TURN or any(way * turn < -SMOOTH for way in ways):
+            return None
+        row, last = model.row, len(model.row.points) - 1
+        found = row.found
+        i = found[a].end
+        j = i + sum(found[k].end - found[k].begin for k in inner)
+        first = i - (found[a].end - found[a].begin) + fewest
+        index = np.arange(first, j + found[b].end - found[b].begin - fewest + 1)
+        points = row.points[index % last] if model.seen.closed else row.points[index]
+        middle = (i + j) // 2 - first
+        if not fewest <= middle <= len(points) - fewest:
+            return None
+        apex = points[middle - 1 : middle + 2].mean(axis=0)
+        corner = meeting(model, a, b, apex)
+        inward = np.array([-(along_a + along_b)[1], (along_a + along_b)[0]]) * np.sign(turn)
+        inward /= np.hypot(*inward)
+        half, depth = 0.5 * abs(turn), float((apex - corner) @ inward)
+        if depth <= 0.0:
+            return None
+        shorter = min(data_length(model, a), data_length(model, b))
+        largest = depth / (1.0 / cos(half) - 1.0) if inner else 0.5 * shorter / tan(half)
+        off = off_by(model, a, points) ** 2, off_by(model, b, points) ** 2
+        # Of what lies there now a fillet saves all numbers but one; in a bare corner it takes two,
+        # since any of some corners may be blunted by chance.
+        squares, numbers, at = _between_edges(model, inner, points, i - first)
+        left = squares + float(off[0][: i - first].sum() + off[1][at:].sum())
+        left += _nat(model) * PRICE * (numbers - (1.0 if inner else 2.0))
+        before = (points[:middle] - corner) @ along_a
+        after = (points[middle:] - corner) @ along_b
+        place = corner, inward, half, before, after
+        return cls(model, (a, b), inner, fewest, first, points, *place, largest, off, left)
+
+    def best(self) -> Fillet:
+        """The fillet that leaves least."""
+        radii = self.largest * (RADII if self.inner else CUTS)
+        best = min(radii.tolist(), key=lambda radius: self._left_by(radius)[0])
+        return self._fillet(*min(self._left_by(radius) for radius in (best * FINER).tolist()))
+
+    def of_radius(self, radius: float) -> Fillet:
+        """The fillet of a radius, data units."""
+        return self._fillet(*self._left_by(radius))
+
+    def _fillet(self, left: float, p: int, q: int) -> Fillet:
+        """The one that leaves so much and goes from one of the points to another."""
+        (a, b), first = self.edges, self.first
+        # Were its radius another's, its own number would cost nothing.
+        free = PRICE * (1.0 if self.inner else 2.0) - LIKELY
+        told, likely = left < self.left, left < self.left + _nat(self.model) * free
+        return Fillet(a, self.inner, b, first + p, first + q, told, left < inf, likely)
+
+    def _left_by(self, radius: float) -> tuple[float, int, int]:
         """Squares that a fillet leaves, and where it begins and ends."""
-        outside = np.flatnonzero(before <= -radius * tan(half))
-        beyond = np.flatnonzero(after >= radius * tan(half))
+        points, half = self.points, self.half
+        outside = np.flatnonzero(self.before <= -radius * tan(half))
+        beyond = np.flatnonzero(self.after >= radius * tan(half))
         if not len(outside) or not len(beyond):
             return inf, 0, 0
-        p, q = int(outside[-1]), middle + int(beyond[0])
-        if p == 0 or q == len(points) - 1 or q - p < fewest:
+        p, q = int(outside[-1]), len(self.before) + int(beyond[0])
+        if p == 0 or q == len(points) - 1 or q - p < self.fewest:
             return inf, 0, 0
-        centre = corner + inward * radius / cos(half)
+        centre = self.corner + self.inward * radius / cos(half)
         off = (np.hypot(*(points[p : q + 1] - centre).T) - radius) ** 2
-        return float(off_a[:p].sum() + off.sum() + off_b[q + 1 :].sum()), p, q
+        edges = self.off[0][:p].sum() + self.off[1][q + 1 :].sum()
+        return float(edges + off.sum()), p, q
 
-    largest = depth / (1.0 / cos(half) - 1.0) if inner else 0.5 * shorter / tan(half)
-    radii = largest * (RADII if inner else CUTS)
-    best = min(radii.tolist(), key=lambda radius: told_by(radius)[0])
-    left, p, q = min(told_by(radius) for radius in (best * FINER).tolist())
-    return Fillet(a, inner, b, first + p, first + q, left < least, left < inf)
+
+def _nat(model: Model) -> float:
+    """Squares that are worth a nat."""
+    return 2.0 * model.seen.deviation**2
+
+
+def _between_edges(
+    model: Model, inner: tuple[int, ...], points: FloatArray, at: int
+) -> tuple[float, float, int]:
+    """Squares that segments leave whose points begin at one, their numbers, where they end.
+
+    Points of free-form runs are as far off as others.
+    """
+    squares, numbers = 0.0, 0.0
+    for k in inner:
+        upto = at + model.row.found[k].end - model.row.found[k].begin
+        if k in model.at:
+            squares += float((off_by(model, k, points[at:upto]) ** 2).sum())
+            numbers += 2 if model.kind(k) == LINE else 3
+        else:
+            squares += (upto - at) * model.seen.deviation**2
+            numbers += FREE_OF_POINTS
+        at = upto
+    return squares, numbers, at
 
 
 def _turn(u: FloatArray, v: FloatArray) -> float:

@@ -22,11 +22,12 @@ PRICE, SMOOTH = 4.0, 0.14
 FREE_PARAMETERS, FREE_OF_POINTS, ARC_PARAMETERS = 5.0, 6.5, 3.0
 # Prices of joints in those of a parameter: what is seldom drawn costs, or smooth chains of arcs
 # follow anything (DRA-01).
+LINE_LINE_SMOOTH, ARC_ARC_SMOOTH, ARC_ARC_CORNER = 2.0, 2.5, 0.5
 JOINTS = _kernels.JointPrices(
-    line_line_smooth=2.0,
+    line_line_smooth=LINE_LINE_SMOOTH,
     line_arc_smooth=1.0,
-    arc_arc_smooth=2.5,
-    arc_arc_corner=0.5,
+    arc_arc_smooth=ARC_ARC_SMOOTH,
+    arc_arc_corner=ARC_ARC_CORNER,
     line_free_smooth=1.0,
     arc_free_smooth=2.0,
     free_corner=1.0,
@@ -102,18 +103,18 @@ class Segments(NamedTuple):
         return _row(self.points[order], self.weights[order], (self.first + cut) % n, found)
 
 
-def segmented(seen: Observed, known: Segments | None = None) -> Segments:
+def segmented(seen: Observed, known: Segments | None = None, *, price: float = PRICE) -> Segments:
     """The segments of an outline; those of a closed one with nodes near a known row's (DRA-27)."""
     if not seen.closed:
-        return _merged(_solved(seen, 0)[0], seen)
+        return _merged(_solved(seen, 0, price=price)[0], seen)
     n = len(seen.points)
     if known is not None and len(known.found) > 1:
         start = known.first
         about = [segment.begin for segment in known.found[1:]]
-        best, cost = _solved(seen, start, about, _near(about, n))
+        best, cost = _solved(seen, start, about, _near(about, n), price=price)
     else:
         start = sharpest(seen.points)
-        best, cost = _solved(seen, start)
+        best, cost = _solved(seen, start, price=price)
     # A second cut, at a node far from the first, frees the first one. Nodes stay where they are but
     # for some points, about the first one many.
     nodes = [segment.begin for segment in best.found[1:]]
@@ -122,7 +123,8 @@ def segmented(seen: Observed, known: Segments | None = None) -> Segments:
         begin = (start + far) % n
         about = [(at - far) % n for at in nodes]
         near = np.concatenate([_near(about, n), (n - far) % n + np.arange(-FREED, FREED + 1)])
-        again, other = _solved(seen, begin, about, near[(near > 0) & (near < n)])
+        near = near[(near > 0) & (near < n)]
+        again, other = _solved(seen, begin, about, near, price=price)
         if other <= cost * (1 + 1e-12):
             best = again
     best = _merged(best, seen)
@@ -160,7 +162,12 @@ def _along(steps: FloatArray) -> FloatArray:
 
 
 def _solved(
-    seen: Observed, start: int, candidates: Sequence[int] = (), nodes: IntArray | None = None
+    seen: Observed,
+    start: int,
+    candidates: Sequence[int] = (),
+    nodes: IntArray | None = None,
+    *,
+    price: float,
 ) -> tuple[Segments, float]:
     """Segments of the row that begins at a point, and what they cost."""
     points = np.concatenate([seen.points[start:], seen.points[: start + seen.closed]])
@@ -182,7 +189,7 @@ def _solved(
             deviation=seen.deviation / size,
             skip=seen.skip / size,
             shortest=max(shortest * seen.skip, SHORTEST_STEPS * seen.step) / size,
-            price=PRICE,
+            price=price,
             free_parameters=FREE_PARAMETERS if seen.pixel else FREE_OF_POINTS,
             smooth_turn=float(np.tan(SMOOTH)),
             stride=max(FREE_STEP, round(len(points) / FREE_PARTS)),

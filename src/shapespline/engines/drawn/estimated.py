@@ -1,0 +1,126 @@
+"""Segments as elements under the regularities that they keep, and what they cost to tell."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from shapespline.engines.drawn.ends import nodes_of
+from shapespline.engines.drawn.joints import turn_at
+from shapespline.engines.drawn.judgement import (
+    HOPELESS,
+    LEAST_SAID,
+    is_enough,
+    is_short,
+    misfitting,
+    repeated,
+)
+from shapespline.engines.drawn.model import Model
+from shapespline.engines.drawn.regularities import NAMES, Search
+from shapespline.engines.drawn.repeats import free_runs
+from shapespline.engines.drawn.segments import (
+    ARC_ARC_CORNER,
+    ARC_ARC_SMOOTH,
+    FREE,
+    FREE_OF_POINTS,
+    LINE,
+    LINE_LINE_SMOOTH,
+    PRICE,
+    SMOOTH,
+    supported,
+)
+from shapespline.engines.drawn.sharing import shared_anew
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from shapespline.engines.drawn.segments import Segments
+    from shapespline.values import Regularity
+
+# An outline of more elements than these that contradict their points is none that was drawn, which
+# takes long to find out (DRA-10).
+MOST_WRONG = 30
+# An element costs so many parameters beside its own where readings of other numbers of them are
+# compared: there are many of these (DRA-38).
+ELEMENT = 0.5
+
+
+class Estimated(NamedTuple):
+    """Elements with the regularities that they keep, and whether these tell of a drawing."""
+
+    model: Model
+    found: list[Regularity]
+    told: bool
+
+    @property
+    def cost(self) -> float:
+        """Misfit and the price of what regularities leave free."""
+        return 0.5 * self.model.chi_sq + PRICE * self.model.n_free
+
+    @property
+    def whole_cost(self) -> float:
+        """The cost with that of free-form runs, of joints that are seldom drawn, of each element.
+
+        By which readings of measured points are compared that differ in these. Points of free-form
+        runs are as far off as others.
+        """
+        row = self.model.row
+        more = FREE_OF_POINTS * free_runs(row) + ELEMENT * len(row.found)
+        n_free = sum(j - i for i, j, kind in row.found if kind == FREE)
+        free_chi_sq = self.model.chi_sq * n_free / (row.found[-1].end - n_free)
+        price = PRICE * (more + sum(_joint_prices(self.model)))
+        return self.cost + 0.5 * free_chi_sq + price
+
+
+def estimated(model: Model, row: Segments, tolerance: float) -> Estimated | None:
+    """The elements of segments under their regularities, those that fit badly left out."""
+    seen, ends, n_wrong = model.seen, model.ends, 0
+    while n_wrong < min(len(row.found), MOST_WRONG):
+        model = Model.of(seen, row, model, ends)
+        if not is_enough(row):
+            return None
+        bad = misfitting(model, tolerance, each_alone=True)  # which is soon done
+        if not bad:
+            found = Search(model, NAMES).run()
+            bad = misfitting(model, tolerance)
+            told = repeated(model, found) >= LEAST_SAID * (1.0 if not bad else HOPELESS)
+            if not bad:
+                return Estimated(model, found, told)
+            if not told and not is_short(model):
+                return None
+        row, n_wrong = supported(_without(row, bad), seen.closed), n_wrong + len(bad)
+    return None
+
+
+def settled(best: Estimated, tolerance: float) -> Estimated:
+    """The estimate after points were shared anew, if that costs less.
+
+    Without a tolerance rows are compared as they are after that: one with an arc that has points of
+    its neighbours may seem the cheaper one (DRA-37).
+    """
+    row = shared_anew(best.model).row
+    if row is best.model.row:
+        return best
+    other = estimated(best.model, row, tolerance)
+    if other is None or other.model.row is not row or other.cost >= best.cost:
+        return best
+    return other
+
+
+def _joint_prices(model: Model) -> Iterator[float]:
+    """Those of joints between lines or between arcs, in parameters."""
+    found, nodes = model.row.found, nodes_of(model)
+    for k in range(len(found) if model.seen.closed else len(found) - 1):
+        m = (k + 1) % len(found)
+        if k == m or found[k].kind != found[m].kind or found[k].kind == FREE:
+            continue
+        smooth = turn_at(model, k, m, nodes[k]) <= SMOOTH
+        if found[k].kind == LINE:
+            yield LINE_LINE_SMOOTH if smooth else 0.0
+        else:
+            yield ARC_ARC_SMOOTH if smooth else ARC_ARC_CORNER
+
+
+def _without(row: Segments, bad: list[int]) -> Segments:
+    """The row with some segments free-form."""
+    found = tuple(s._replace(kind=FREE) if k in bad else s for k, s in enumerate(row.found))
+    return row._replace(found=found)
