@@ -45,8 +45,14 @@ CLOSING_GAP = 1.5
 def _validated(points: ArrayLike) -> FloatArray:
     """Points as a fresh (n, 2) float64 array, or one clear sentence why not."""
     array = float_array(points, "points")
+    if array.ndim == 3 and array.shape[1:] == (1, 2):  # as OpenCV has the points of a contour
+        array = array[:, 0]
     if array.ndim != 2 or array.shape[1] != 2:
-        hint = "; transpose it?" if array.ndim == 2 and array.shape[0] == 2 else ""
+        hint = ""
+        if array.ndim == 2 and array.shape[0] == 2:
+            hint = "; transpose it?"
+        elif array.ndim == 2 and array.shape[1] > 2:
+            hint = "; choose two columns"
         raise InvalidInputError(f"points must have shape (n, 2), got {array.shape}{hint}")
     largest = max(abs(float(array.min())), abs(float(array.max()))) if array.size else 0.0
     if not np.isfinite(largest):
@@ -127,7 +133,7 @@ class Contour(ByValue, Shown, Exchanged):
     Parameters
     ----------
     points : array_like, shape (n, 2)
-        Coordinates in data units, in order along the outline.
+        Coordinates in data units, in order along the outline; (n, 1, 2), as of OpenCV, too.
     closed : bool, optional
         Whether the last point is joined to the first. Found from the gap between the ends when
         not given.

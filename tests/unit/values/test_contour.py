@@ -110,6 +110,12 @@ def test_every_given_point_has_its_stand_in(points):
         assert (steps != 0).any(axis=1).all()
 
 
+def test_points_of_opencv_are_points():
+    given = np.array(SQUARE, dtype=np.int32)[:, None]
+    assert given.shape == (4, 1, 2)
+    assert_array_equal(Contour(given, closed=True).points, SQUARE)
+
+
 # --- what is refused ---------------------------------------------------------------------------
 
 
@@ -117,7 +123,7 @@ def test_every_given_point_has_its_stand_in(points):
     ("points", "message"),
     [
         (np.zeros((2, 40)), r"points must have shape \(n, 2\), got \(2, 40\); transpose it\?"),
-        (np.zeros((4, 3)), r"points must have shape \(n, 2\), got \(4, 3\)$"),
+        (np.zeros((4, 3)), r"points must have shape \(n, 2\), got \(4, 3\); choose two columns$"),
         (np.zeros(8), r"points must have shape \(n, 2\), got \(8,\)$"),
         (5.0, r"points must have shape \(n, 2\), got \(\)"),
         ([], r"points must have shape \(n, 2\), got \(0,\)"),
