@@ -71,35 +71,54 @@ def rows_with_fillets(model: Model, *, estimating: bool) -> Iterator[Segments]:
         of_arc = [model.kind(k) for k in inner] == [ARC]
         if not all(k in model.at for k in inner) or (of_arc and not estimating):
             return None
-        if not _are_short(model, a, inner, b):
-            return None
-        turn = _Turn.of(model, a, inner, b, fewest=fewest)
-        return None if turn is None else turn.best()
+        return _best_between(model, a, inner, b, fewest)
 
-    told = _with_fillets(model, best, fewest, all_alike=False)
-    alike = _with_fillets(model, best, fewest, all_alike=True)
+    told = _with_fillets(model, best, fewest, lambda one: one.is_told)
+    # For all shorter elements, though some are told by these as well.
+    alike = _with_fillets(
+        model, best, fewest, lambda one: one.is_possible if one.inner else one.is_told
+    )
     if told is not None:
         yield told
     if alike is not None and (told is None or alike.found != told.found):
         yield alike
 
 
-def rows_with_one_fillet(model: Model) -> Iterator[Segments]:
-    """Rows with a single fillet each, wherever one is likely."""
+def rows_with_likely_fillets(model: Model) -> Iterator[Segments]:
+    """Rows with a single fillet each, wherever one is likely, and one with all of these."""
+
+    @cache
+    def best(a: int, inner: tuple[int, ...], b: int) -> Fillet | None:
+        if [model.kind(k) for k in inner] == [ARC]:
+            return None
+        return _best_between(model, a, inner, b, FEWEST_ESTIMATED)
+
     lines = {k for k in model.at if model.kind(k) == LINE}
     for k in sorted(lines):
         for m in range(MOST + 1):
             between = _between(model, k, m)
-            if between is None or between[1] not in lines or not _are_short(model, k, *between):
+            if between is None or between[1] not in lines:
                 continue
-            if [model.kind(inner) for inner in between[0]] == [ARC]:
-                continue
-            turn = _Turn.of(model, k, *between, fewest=FEWEST_ESTIMATED)
-            found = None if turn is None else turn.best()
+            found = best(k, *between)
             if found is not None and found.is_likely:
                 row = _row_with(model, {k: found}, FEWEST_ESTIMATED)
                 if row is not None:
                     yield row
+    # One alone may be told by none of the others: equal radii are known by two.
+    every = _with_fillets(model, best, FEWEST_ESTIMATED, lambda one: one.is_likely)
+    if every is not None:
+        yield every
+
+
+def _best_between(
+    model: Model, a: int, inner: tuple[int, ...], b: int, fewest: int
+) -> Fillet | None:
+    """The best fillet between two edges, if what lies there is shorter and turns so."""
+    shorter = min(data_length(model, a), data_length(model, b))
+    if any(data_length(model, k) >= shorter for k in inner):
+        return None
+    turn = _Turn.of(model, a, inner, b, fewest=fewest)
+    return None if turn is None else turn.best()
 
 
 def rows_with_other_radii(model: Model) -> Iterator[Segments]:
@@ -132,13 +151,9 @@ def _with_fillets(
     model: Model,
     best: Callable[[int, tuple[int, ...], int], Fillet | None],
     fewest: int,
-    *,
-    all_alike: bool,
+    is_taken: Callable[[Fillet], bool],
 ) -> Segments | None:
-    """The row with fillets between edges wherever shorter elements or too little lie; or None.
-
-    ``all_alike`` takes them for all shorter elements, though some are told by these as well.
-    """
+    """The row with all fillets that are taken, those of most segments first; None for none."""
     fillets: dict[int, Fillet] = {}
     edges: set[int] = set()
     gone: set[int] = set()
@@ -154,7 +169,7 @@ def _with_fillets(
             found = best(k, inner, after)
             if found is None:
                 continue
-            if found.is_possible if all_alike and m > 0 else found.is_told:
+            if is_taken(found):
                 fillets[k] = found
                 edges |= {k, after}
                 gone |= set(inner)
@@ -190,12 +205,6 @@ def _row_with(model: Model, fillets: dict[int, Fillet], fewest: int) -> Segments
         row = row.cut_at([begin % last for begin in begins])
     # Two fillets may take all of the edge between them.
     return row if all(j - i >= fewest for i, j, _ in row.found) else None
-
-
-def _are_short(model: Model, a: int, inner: tuple[int, ...], b: int) -> bool:
-    """Whether what lies between two edges is shorter than these."""
-    shorter = min(data_length(model, a), data_length(model, b))
-    return all(data_length(model, k) < shorter for k in inner)
 
 
 class _Turn(NamedTuple):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from shapespline.engines.drawn.fillets import (
     FEWEST_ESTIMATED,
-    rows_with_one_fillet,
+    rows_with_likely_fillets,
     rows_with_other_radii,
 )
 from shapespline.engines.drawn.segments import ARC, LINE, Segment
@@ -27,8 +27,8 @@ TAKEN, FEWEST_STEPS = (0.2, 0.35, 0.5), 2
 
 
 def rows_nearby(model: Model) -> Iterator[Segments]:
-    """Rows with one fillet more, with other radii, or with an edge between two arcs."""
-    yield from rows_with_one_fillet(model)
+    """Rows with more fillets, with other radii, or with an edge between two arcs."""
+    yield from rows_with_likely_fillets(model)
     yield from rows_with_other_radii(model)
     yield from _rows_with_one_edge(model)
 
