@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 # square of their slope; the two outermost pixels of ground and of ink are even, but for so many
 # deviations of the noise. They are so much of all, or nothing is known of the picture (TRC-20).
 ENOUGH, LEAST_ACROSS, EVEN, EVEN_NOISE, PLAIN = 100_000, 0.4, 0.02, 2.0, 0.2
+# Grey that falls by more of the contrast, and so many deviations of the noise, from one pixel to
+# the next on its way from ground to ink is that of other strokes beside (TRC-28).
+FALLS, FALLS_NOISE = 0.25, 4.0
 # Edges of less blur than this are those of a renderer: sharp (TRC-20).
 LEAST_BLUR = 0.5
 # Variance of a place within a pixel, and of a value between two pixels, of theirs: in the mean over
@@ -111,6 +114,7 @@ def _blur(profiles: FloatArray, beside: FloatArray, noise: float) -> float | Non
     off = np.concatenate([profiles[:, :2], profiles[:, -2:] - 1.0], axis=1)
     plain = (np.abs(off) <= even).all(axis=1)
     steps = np.diff(profiles, axis=1)
+    plain &= (steps >= -FALLS - FALLS_NOISE * noise).all(axis=1)
     across, along = steps[:, REACH - 1], 0.5 * beside
     with np.errstate(divide="ignore", invalid="ignore"):
         share = across**2 / (across**2 + along**2)  # cos^2 a

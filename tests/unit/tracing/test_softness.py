@@ -46,6 +46,13 @@ def test_what_is_rendered_is_sharp(inside):
     assert softness(scanned(inside, 0.0)).blur == 0
 
 
+def test_narrow_strokes_beside_each_other_are_no_blur():
+    image = np.full((30, 30), 255, dtype=np.uint8)
+    for column in (4, 8, 12, 17, 21):
+        image[4:26, column : column + 2] = 0
+    assert softness(image).blur == 0
+
+
 def test_waves_have_no_edges():
     y, x = np.mgrid[:80, :80]
     waves = np.rint(127.5 + 120 * np.sin(0.21 * x) * np.cos(0.17 * y)).astype(np.uint8)
