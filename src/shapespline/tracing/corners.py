@@ -139,10 +139,10 @@ def put_back(
         cut_off = np.interp(np.degrees(np.pi - found.turns), ANGLES, most)
         found = corners.joined(found.chosen((far <= cut_off) & _away(found, corners)))
         if len(found.points) > len(corners.points):
-            corners = found.chosen(fit(found, _with_corners(lines, found, closed)))
+            corners = found.chosen(fit(found, with_corners(lines, found, closed)))
         if len(corners.points) == len(turns.own):
             break
-    return _with_corners(lines, corners, closed)
+    return with_corners(lines, corners, closed)
 
 
 def _away(found: Corners, corners: Corners) -> BoolArray:
@@ -207,7 +207,7 @@ def _distances(
     return found
 
 
-def _with_corners(
+def with_corners(
     lines: Sequence[FloatArray], corners: Corners, closed: Sequence[bool]
 ) -> list[FloatArray]:
     """Outlines and open lines with corners in place of what lies between their sides."""

@@ -10,6 +10,7 @@ from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
 from shapespline.tracing.edges import drawn_shares, level_shares, no_edges
 from shapespline.tracing.inks import inks_of, moved_to_own
+from shapespline.tracing.roundings import rounded
 from shapespline.tracing.softness import Softness
 
 if TYPE_CHECKING:
@@ -94,6 +95,8 @@ def drawn_lines(
         cornered.append(not one_bit and (known or on_level_too))
     say(f"looking for the corners of {len(outlines)} outlines")
     outlines = sharpened(outlines, level_lines, cornered, field, soft, inks)
+    if not soft.blur:
+        outlines = rounded(outlines, cornered, field, inks)
     outlines = [np.clip(points, 0, (width, height)) for points in outlines]
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
 

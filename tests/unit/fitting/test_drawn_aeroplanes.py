@@ -48,7 +48,8 @@ def aeroplane_of_the_paper(size, place):
 @pytest.mark.parametrize(("size", "place"), [(212, (22, 22)), (198, (21.64, 22.4))])
 def test_what_is_told_shorter_in_part_gives_way_to_what_is_exact(size, place):
     fit = aeroplane_of_the_paper(size, place)
-    assert fit.hausdorff_distance < 0.18  # 0.24 and 0.23 told shorter (DRA-29)
+    # 0.24 and 0.23 told shorter (DRA-29); 0.18 and 0.04, 0.21 and 0.19 from the outline itself.
+    assert fit.hausdorff_distance < 0.2
 
 
 def test_what_is_told_shorter_in_part_does_not_hold_because_it_is_read_alike():

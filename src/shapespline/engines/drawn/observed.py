@@ -100,6 +100,12 @@ class Observed:
         """The same with errors that go on for longer."""
         return self._but(apart=APART)
 
+    def part(self, points: FloatArray) -> Observed:
+        """An open stretch of it, in the same units."""
+        other = replace(self, points=points, closed=False)
+        other.__dict__["step"], other.__dict__["box"] = self.step, self.box
+        return other
+
     def _but(self, **changes: float) -> Observed:
         """The same points otherwise; what is known of them alone is known."""
         other = replace(self, **changes)  # type: ignore[arg-type]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.engines.drawn.told_arcs import told_arcs
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -107,6 +108,8 @@ def segmented(seen: Observed, known: Segments | None = None, *, price: float = P
     """The segments of an outline; those of a closed one with nodes near a known row's (DRA-27)."""
     if not seen.closed:
         return _merged(_solved(seen, 0, price=price)[0], seen)
+    if told := told_arcs(seen):
+        return _between(seen, told, price)
     n = len(seen.points)
     if known is not None and len(known.found) > 1:
         start = known.first
@@ -130,6 +133,24 @@ def segmented(seen: Observed, known: Segments | None = None, *, price: float = P
     best = _merged(best, seen)
     whole = next((k for k, s in enumerate(best.found) if s.kind != FREE), 0)
     return best.turned(whole)
+
+
+def _between(seen: Observed, told: Sequence[tuple[int, int]], price: float) -> Segments:
+    """Arcs that points tell exactly, and the segments of what lies between them."""
+    start, n = told[0][0], len(seen.points)
+    points = np.roll(seen.points, -start, axis=0)
+    points = np.concatenate([points, points[:1]])
+    found: list[Segment] = []
+    begins = [*(i for i, _ in told[1:]), told[0][0] + n]
+    for (i, j), after in zip(told, begins, strict=True):
+        at, after = (j - start, (after - start) if after >= start else after - start + n)
+        found.append(Segment((i - start) % n, at, ARC))
+        if after > at:
+            part = seen.part(points[at : after + 1])
+            row = _merged(_solved(part, 0, price=price)[0], part)
+            found += [Segment(at + s.begin, at + s.end, s.kind) for s in row.found]
+    stations = _along(np.hypot(*np.diff(points, axis=0).T))
+    return Segments(points, stations, _weights(seen, stations), start, tuple(found))
 
 
 def _near(nodes: Sequence[int], n: int) -> IntArray:
@@ -172,11 +193,7 @@ def _solved(
     """Segments of the row that begins at a point, and what they cost."""
     points = np.concatenate([seen.points[start:], seen.points[: start + seen.closed]])
     stations = _along(np.concatenate([seen.steps[start:], seen.steps[:start]]))
-    weights = np.ones(len(points))
-    if seen.pixel:  # one independent sample to a pixel, or to more of them
-        weights[1:-1] = (stations[2:] - stations[:-2]) / 2.0
-        weights[[0, -1]] = stations[1] - stations[0], stations[-1] - stations[-2]
-        weights = np.minimum(weights / seen.pixel, 1.0) / seen.apart
+    weights = _weights(seen, stations)
     middle, size = seen.box
     shortest = SHORTEST_STAIRS if seen.one_bit else SHORTEST_BLUNTED
     parts, cost = _kernels.drawn_pieces(
@@ -198,6 +215,16 @@ def _solved(
     )
     found = tuple(map(Segment._make, parts))
     return Segments(points, stations, weights, start, found), cost
+
+
+def _weights(seen: Observed, stations: FloatArray) -> FloatArray:
+    """What points of a row count; those of a picture one for each pixel, or for more of them."""
+    weights = np.ones(len(stations))
+    if seen.pixel:
+        weights[1:-1] = (stations[2:] - stations[:-2]) / 2.0
+        weights[[0, -1]] = stations[1] - stations[0], stations[-1] - stations[-2]
+        weights = np.minimum(weights / seen.pixel, 1.0) / seen.apart
+    return weights
 
 
 def _merged(row: Segments, seen: Observed) -> Segments:

@@ -1,0 +1,321 @@
+"""Round corners and round ends of few pixels as they were drawn: arcs that the ink around tells.
+
+What is summed along a row or a column tells a curve that is all but straight over a pixel, which an
+arc of one to four pixels of radius is not. But its two sides are, farther away, and of all circles
+that touch both the ink of the pixels along the arc tells one: Newton's method for the one number
+that is left, the whole drawing covered anew each time, so that what lies beside counts, too. It is
+taken if the pixels agree one by one, and do so better than with the outline as it was.
+
+Of a stroke along the pixels, two of them wide, a round end and a square one may be the same pixels:
+such ends are round where anything else in the picture is.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shapespline.tracing.corners import around, with_corners
+from shapespline.tracing.coverage import border_coverage
+from shapespline.tracing.sides import NONE, Corners, Ways, length_of, turns_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from shapespline.tracing.coverage import Covered
+    from shapespline.tracing.field import Field
+    from shapespline.tracing.sides import Turns
+    from shapespline.typing import BoolArray, FloatArray, IntArray
+
+# Radii of arcs that are told, pixels: of smaller ones a corner is left, larger ones are told by
+# their own points (TRC-29).
+SMALLEST, LARGEST = 0.65, 8.0
+# Lengths along the outline from the middle of an arc to where its sides are looked at, which it has
+# to end before by so much; how far sides are looked at, how far from the next turn they end at
+# least, in parts of the former, too, and how far they may be from a line in the mean (TRC-29).
+NEARS, BEFORE = (1.7, 2.1, 2.5, 3.0, 3.6, 4.3, 5.2, 6.3, 7.5), 0.35
+SIDES, CLEAR, CLEAR_PART, STRAIGHT = (4.0, 2.0, 1.0), 1.25, 0.6, 0.015
+# Points of sides are disturbed so far beyond an arc: its pixels reach there.
+DISTURBED = 0.8
+# Half a turn and nearly so leads to the side on which the other one lies, whatever its angle.
+NEARLY_BACK = np.radians(150.0)
+# Rounds of Newton's method, and their longest step.
+ROUNDS, LONGEST_STEP = 3, 1.0
+# Pixels whose middle is so near to an arc tell it, of those so near to its own middle. They may
+# miss the drawing by so much in the mean, and so many deviations of the noise, and by no more than
+# this part of what they miss it by now (TRC-29).
+ALONG, REACH = 1.1, 7
+TOLD, TOLD_NOISE, BETTER = 0.012, 1.5, 0.5
+# As much for each pixel of what lies between the arc and the corner in its place; pixels that miss
+# an outline by no more agree with it.
+OF_CORNER, AGREES = 0.12, 0.006
+# What misses them by more is not tried again from the same sides.
+HOPELESS = 0.05
+# Points of each side, of an arc, and between both.
+SAMPLES, ARC_POINTS, BETWEEN = 9, 9, 2
+_SHARES = np.linspace(0.0, 1.0, SAMPLES)
+_ARC = np.linspace(0.0, 1.0, ARC_POINTS)
+_FLAT = np.linspace(0.0, 1.0, ARC_POINTS - 2)
+_BETWEEN = (np.arange(BETWEEN) + 1.0)[:, None] / (BETWEEN + 1)
+
+
+def rounded(
+    outlines: Sequence[FloatArray], drawn: Sequence[bool], field: Field, inks: FloatArray
+) -> list[FloatArray]:
+    """Outlines with the arcs of few pixels that the picture shows; all others as they are.
+
+    Parameters
+    ----------
+    outlines : sequence of ndarray, shape (n_i, 2)
+        Closed, in picture coordinates, ink on the left.
+    drawn : sequence of bool
+        Which of them lie where the picture's grey tells.
+    field : Field
+    inks : ndarray, shape (n,)
+        What the ink of each is worth, of that of the picture.
+    """
+    shortest = 2 * (NEARS[0] + SIDES[-1])
+    used = [k for k, one in enumerate(outlines) if drawn[k] and length_of(one) >= shortest]
+    if not used:
+        return list(outlines)
+    ways = Ways([outlines[k] for k in used], [True] * len(used))
+    turns = turns_of(ways)
+    own, at, _ = turns
+    closed, whose = [True] * len(outlines), np.array(used)[own]
+    after, ahead = _next(turns, ways)
+    room = np.minimum(ahead, ahead[np.argsort(after)])
+    reach = np.zeros(len(at))
+    now = border_coverage(outlines, *field.shape)
+    found = NONE._replace(runs=np.empty((0, ARC_POINTS + 2 * BETWEEN, 2)))
+    clear = False
+    left, hopeless, least = np.ones(len(at), dtype=bool), np.zeros(len(at)), np.zeros(len(at))
+    for nearest in (False, True):
+        some, near, touching, shift = _sides_found(
+            ways, turns, room, np.where(left, least, np.inf), nearest=nearest
+        )
+        arcs, ink = touching.arcs(shift), inks[whose[some]]
+        off = _mean(*_missed(arcs, field, now, ink))
+        wrong = (off > AGREES + TOLD_NOISE * field.noise) & (near != hopeless[some])
+        left[some] = wrong
+        if not wrong.any():
+            break
+        some, near, touching = some[wrong], near[wrong], touching.chosen(wrong)
+        shift, ink = shift[wrong], ink[wrong]
+        for _ in range(ROUNDS):
+            arcs = touching.arcs(shift)
+            corners = _corners(
+                whose[some], at[some], touching, arcs, arcs.points(arcs.chord_radii)[:, 1:-1]
+            )
+            tried = with_corners(outlines, found.joined(corners), closed)
+            missed, along = _missed(arcs, field, border_coverage(tried, *field.shape), ink)
+            step = touching.step_for(missed.sum(axis=1), arcs)
+            shift = shift + np.clip(step, -LONGEST_STEP, LONGEST_STEP)
+        off, was_off = _mean(missed, along), _mean(*_missed(arcs, field, now, ink))
+        good = (off <= TOLD + TOLD_NOISE * field.noise) & (off <= BETTER * was_off)
+        good &= off <= OF_CORNER * arcs.cut_off / np.sqrt(along.sum(axis=1))
+        least[some] = arcs.half_length + BEFORE
+        good &= (near >= least[some]) & (arcs.radii >= SMALLEST) & (arcs.radii <= LARGEST)
+        reach[some] = np.where(good, arcs.half_length + DISTURBED, 0.0)
+        beside = np.minimum(reach, reach[after]) > 0.0
+        overlap = beside & (reach + reach[after] > ahead)
+        good &= ~(overlap | overlap[np.argsort(after)])[some]
+        reach[some[~good]] = 0.0
+        corners = _corners(whose[some], at[some], touching, arcs, arcs.points(arcs.radii)[:, 1:-1])
+        is_end = good & (np.abs(arcs.turns) >= NEARLY_BACK)
+        clear = clear or bool((good & ~is_end).any())
+        if is_end.any() and not clear:
+            square = _corners(whose[some], at[some], touching, arcs, touching.square_ends(arcs))
+            tried = with_corners(outlines, found.joined(square.chosen(is_end)), closed)
+            missed, along = _missed(arcs, field, border_coverage(tried, *field.shape), ink)
+            clear = bool((_mean(missed, along) > np.maximum(off, AGREES))[is_end].any())
+        found = found.joined(corners.chosen(good))
+        left[some] = ~good
+        # What is far off disturbs what lies beside.
+        hopeless[some] = np.where(off > HOPELESS, near, 0.0)
+        least[some[off > HOPELESS]] = 0.0
+    return with_corners(outlines, found, closed) if clear else list(outlines)
+
+
+class Arcs(NamedTuple):
+    """Circular arcs: middles, radii, directions from the middle to the beginning, turns."""
+
+    centres: FloatArray
+    radii: FloatArray
+    firsts: FloatArray
+    turns: FloatArray
+
+    def points(self, radii: FloatArray) -> FloatArray:
+        """Points of each, of other radii, shape (k, ARC_POINTS, 2)."""
+        angle = self.firsts[:, None] + _ARC * self.turns[:, None]
+        ways = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        return self.centres[:, None] + radii[:, None, None] * ways
+
+    @property
+    def half_length(self) -> FloatArray:
+        """From the middle of each to its end."""
+        return 0.5 * self.radii * np.abs(self.turns)
+
+    @property
+    def cut_off(self) -> FloatArray:
+        """Square pixels between each and the corner that it is in place of; of an end no bound."""
+        half = np.minimum(0.5 * np.abs(self.turns), 0.5 * NEARLY_BACK)
+        return self.radii**2 * (np.tan(half) - half)
+
+    @property
+    def chord_radii(self) -> FloatArray:
+        """Radii with which the chords between the points enclose as much as the arcs do."""
+        step = np.abs(self.turns) / (ARC_POINTS - 1)
+        return self.radii * np.sqrt(step / np.sin(step))
+
+
+class Touching:
+    """Circles that touch two directed lines each, of which one number is left.
+
+    Middle and radius solve two equations: the distances from the lines are the radius. What is left
+    moves the middle by one along the way out, from between the sides to where they turn.
+    """
+
+    def __init__(self, sides: Sequence[tuple[FloatArray, FloatArray]]) -> None:
+        (p1, u1), (p2, u2) = self.sides = sides
+        turns = np.arctan2(_cross(u1, u2), (u1 * u2).sum(axis=1))
+        back, other_side = np.abs(turns) > NEARLY_BACK, np.sign(_cross(u1, p2 - p1))
+        self.ways = np.where(back, other_side, np.where(turns < 0, -1.0, 1.0))
+        wrong = back & (np.sign(turns) != self.ways)
+        self.turns = np.where(wrong, turns + 2 * np.pi * self.ways, turns)
+        self.inward = [
+            self.ways[:, None] * np.stack([-u[:, 1], u[:, 0]], axis=-1) for u in (u1, u2)
+        ]
+        # Equations in middle and radius, and the shortest solution.
+        one, two = (np.column_stack([n, -np.ones(len(n))]) for n in self.inward)
+        right = [(n * p).sum(axis=1) for n, p in zip(self.inward, (p1, p2), strict=True)]
+        dot = (one * two).sum(axis=1)
+        det = np.maximum(4.0 - dot**2, 1e-9)
+        first, second = ((2 * a - dot * b) / det for a, b in (right, right[::-1]))
+        self.one = first[:, None] * one + second[:, None] * two
+        out = u1 - u2
+        self.out = out / np.maximum(np.hypot(*out.T), 1e-9)[:, None]
+        free = np.cross(one, two)
+        size = (free[:, :2] * self.out).sum(axis=1)
+        self.free = free / np.where(np.abs(size) < 1e-9, 1e-9, size)[:, None]
+
+    def chosen(self, which: BoolArray | IntArray) -> Touching:
+        """Some of them."""
+        return Touching([(p[which], u[which]) for p, u in self.sides])
+
+    def through(self, apex: FloatArray) -> FloatArray:
+        """The number with which arcs are as far out as some points."""
+        gap = ((apex - self.one[:, :2]) * self.out).sum(axis=1) - self.one[:, 2]
+        return gap / np.maximum(1.0 + self.free[:, 2], 0.1)
+
+    def arcs(self, shift: FloatArray) -> Arcs:
+        """Those of some numbers."""
+        x = self.one + shift[:, None] * self.free
+        firsts = np.arctan2(-self.inward[0][:, 1], -self.inward[0][:, 0])
+        return Arcs(x[:, :2], np.maximum(x[:, 2], 0.0), firsts, self.turns)
+
+    def square_ends(self, arcs: Arcs) -> FloatArray:
+        """Points of square ends with as much ink, in place of those between the ends of arcs."""
+        points = arcs.points(arcs.radii)
+        ahead = 0.25 * np.pi * arcs.radii[:, None]
+        one = points[:, 0] + ahead * self.sides[0][1]
+        two = points[:, -1] - ahead * self.sides[1][1]
+        return np.asarray(one[:, None] + _FLAT[:, None] * (two - one)[:, None])
+
+    def step_for(self, ink: FloatArray, arcs: Arcs) -> FloatArray:
+        """By how much the number has to rise for so many square pixels of ink more."""
+        turn, shrinks = np.abs(self.turns), self.free[:, 2]
+        # What is swept by a step d is d radius w + d^2 shrinks w / 2.
+        w = 2.0 * np.sin(0.5 * turn) + shrinks * turn
+        swept, more = arcs.radii * w, self.ways * ink
+        root = np.sqrt(np.maximum(swept**2 + 2.0 * shrinks * w * more, 0.0))
+        return np.asarray(2.0 * more / np.maximum(swept + root, 0.05))
+
+
+def _next(turns: Turns, ways: Ways) -> tuple[IntArray, FloatArray]:
+    """The turn behind each one along its outline, and how far behind."""
+    own, at, _ = turns
+    k, first = np.arange(len(own)), np.searchsorted(own, own)
+    last = np.searchsorted(own, own, side="right") - 1
+    after = np.where(k < last, k + 1, first)
+    return after, at[after] - at + np.where(k < last, 0.0, ways.lengths[own])
+
+
+def _sides_found(
+    ways: Ways, turns: Turns, room: FloatArray, least: FloatArray, *, nearest: bool
+) -> tuple[IntArray, FloatArray, Touching, FloatArray]:
+    """Turns whose sides are straight, from where, circles that touch them, and their numbers.
+
+    From the longest sides that allow a circle through the outline's middle, or from the ``nearest``
+    ones, but no nearer than ``least``. ``room`` is there to the next turn.
+    """
+    own, at, _ = turns
+    # All lengths and distances at once.
+    tried = np.meshgrid(SIDES, NEARS, np.flatnonzero(least < np.inf), indexing="ij")
+    size, near, some = (np.ravel(one.swapaxes(0, int(nearest))) for one in tried)
+    used = near >= least[some]
+    used &= near + size <= room[some] - np.maximum(CLEAR, CLEAR_PART * near)
+    near, size, some = near[used], size[used], some[used]
+    sides, fit = [], np.ones(len(some), dtype=bool)
+    for sign in (-1.0, 1.0):
+        t = near[:, None] + _SHARES * size[:, None]
+        seen = ways.at(np.broadcast_to(own[some, None], t.shape), at[some, None] + sign * t)
+        middle = seen.mean(axis=1)
+        x, y = (seen - middle[:, None]).transpose(2, 0, 1)
+        along = sign * (seen[:, -1] - seen[:, 0])
+        angle = 0.5 * np.arctan2(2 * (x * y).sum(axis=1), (x**2 - y**2).sum(axis=1))
+        u = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        u *= np.where((u * along).sum(axis=1) < 0, -1.0, 1.0)[:, None]
+        fit &= ((x * u[:, 1:] - y * u[:, :1]) ** 2).mean(axis=1) <= STRAIGHT**2
+        sides.append((middle, u))
+    near, some = near[fit], some[fit]
+    touching = Touching([(p[fit], u[fit]) for p, u in sides])
+    number = touching.through(ways.at(own[some], at[some]))
+    arcs = touching.arcs(number)
+    good = np.flatnonzero((near >= arcs.half_length + BEFORE) & (arcs.radii <= LARGEST))
+    # Of each turn what comes first.
+    some, which = np.unique(some[good], return_index=True)
+    good = good[which]
+    return some, near[good], touching.chosen(good), number[good]
+
+
+def _corners(
+    own: IntArray, at: FloatArray, touching: Touching, arcs: Arcs, inner: FloatArray
+) -> Corners:
+    """Arcs instead of what lies between their sides, with other points between their ends."""
+    points = arcs.points(arcs.radii)
+    begins = points[:, 0] - DISTURBED * touching.sides[0][1]
+    ends = points[:, -1] + DISTURBED * touching.sides[1][1]
+    reach = arcs.half_length + DISTURBED
+    one = begins[:, None] + _BETWEEN * (points[:, 0] - begins)[:, None]
+    two = points[:, -1:] + _BETWEEN * (ends - points[:, -1])[:, None]
+    runs = np.concatenate([one, points[:, :1], inner, points[:, -1:], two], axis=1)
+    apex = points[:, ARC_POINTS // 2]
+    return Corners(own, apex, np.abs(arcs.turns), at - reach, at + reach, runs)
+
+
+def _missed(
+    arcs: Arcs, field: Field, covered: Covered, ink: FloatArray
+) -> tuple[FloatArray, BoolArray]:
+    """What pixels have and a drawing does not, and which of them are along the arcs."""
+    height, width = field.shape
+    points = arcs.points(arcs.radii)
+    r, c, inside = around(0.5 * (points.min(axis=1) + points.max(axis=1)), field.shape, REACH)
+    near = np.full(c.shape, np.inf)
+    for x, y in np.moveaxis(points, 0, 2):
+        off = np.hypot(c + 0.5 - x[:, None, None], height - r - 0.5 - y[:, None, None])
+        near = np.minimum(near, off)
+    along = inside & (near <= ALONG)
+    r, c = np.clip(r, 0, height - 1), np.clip(c, 0, width - 1)
+    missed = field.ink(r, c) / ink[:, None, None] - covered.at(r, c, width)
+    size = (len(r), (2 * REACH + 1) ** 2)
+    return np.where(along, missed, 0.0).reshape(size), along.reshape(size)
+
+
+def _mean(missed: FloatArray, along: BoolArray) -> FloatArray:
+    """Root mean square over the pixels that count."""
+    return np.sqrt((missed**2).sum(axis=1) / np.maximum(along.sum(axis=1), 1))
+
+
+def _cross(u: FloatArray, v: FloatArray) -> FloatArray:
+    return np.asarray(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])

@@ -1,0 +1,73 @@
+"""Round corners and ends of one to four pixels of radius come back as arcs, all alike."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.support.rendering import coverage, dark
+
+import shapespline as ss
+
+# Ink is counted by samples of a 32nd, so sides lie up to half of one beside their places: along the
+# r pixels of each that a corner takes that is r / 32 of ink together, and a radius is read off
+# r^2 (2 - pi / 2) / 2 of it.
+READ = 1 / 32 / (2 - np.pi / 2)
+
+
+def box(middle, half, radius, turn=0.0):
+    """A rectangle with round corners, turned."""
+    along = np.array([np.cos(turn), np.sin(turn)])
+
+    def inside(x, y):
+        x, y = x - middle[0], y - middle[1]
+        u, v = along[0] * x + along[1] * y, along[0] * y - along[1] * x
+        dx, dy = (
+            np.maximum(np.abs(c) - (h - radius), 0.0) for c, h in zip((u, v), half, strict=True)
+        )
+        return np.hypot(dx, dy) <= radius
+
+    return inside
+
+
+def fitted(*insides, size=48):
+    ink = np.zeros((size, size))
+    for inside in insides:
+        ink = np.maximum(ink, coverage(inside, size, size))
+    return list(ss.fit_shape(ss.trace(dark(ink))))
+
+
+@pytest.mark.parametrize("radius", [1.0, 1.5, 2.0, 2.5, 3.0])
+@pytest.mark.parametrize("place", [(24.0, 24.0), (24.3, 23.6), (23.85, 24.55)])
+def test_all_corners_of_a_rounded_rectangle_are_round(radius, place):
+    (fit,) = fitted(box(place, (15.2, 11.7), radius))
+    radii = [piece.arc.radius for piece in fit.pieces if piece.arc is not None]
+    assert [piece.kind for piece in fit.pieces].count("line") == len(radii) == 4
+    assert len(fit.pieces) == 8
+    np.testing.assert_allclose(radii, radius, atol=READ)
+    assert np.ptp(radii) < 1e-9  # they are told to be equal
+
+
+@pytest.mark.parametrize("width", [2.0, 3.0, 4.0])
+@pytest.mark.parametrize("turn", [0.0, 0.5 * np.pi, 0.25 * np.pi, 0.4])
+def test_both_ends_of_a_stroke_are_half_circles(width, turn):
+    (fit,) = fitted(box((24.2, 23.7), (14.0, 0.5 * width), 0.5 * width, turn))
+    arcs = [piece.arc for piece in fit.pieces if piece.arc is not None]
+    assert sorted(piece.kind for piece in fit.pieces) == ["arc", "arc", "line", "line"]
+    np.testing.assert_allclose([arc.radius for arc in arcs], 0.5 * width, atol=READ)
+    np.testing.assert_allclose([abs(arc.sweep) for arc in arcs], np.pi, atol=0.02)
+
+
+def test_inner_and_outer_corners_of_a_frame_keep_their_radii():
+    def frame(x, y):
+        return box((24.3, 23.8), (18, 15), 3.0)(x, y) & ~box((24.3, 23.8), (15, 12), 1.0)(x, y)
+
+    fits = fitted(frame)
+    assert [len(fit.pieces) for fit in fits] == [8, 8]
+    for fit, radius in zip(fits, (3.0, 1.0), strict=True):
+        radii = [piece.arc.radius for piece in fit.pieces if piece.arc is not None]
+        np.testing.assert_allclose(radii, radius, atol=READ)
+
+
+def test_sharp_corners_stay_sharp():
+    (fit,) = fitted(box((24.3, 23.6), (15.2, 11.7), 0.0, 0.2))
+    assert [piece.kind for piece in fit.pieces] == ["line"] * 4
