@@ -92,10 +92,17 @@ def _is_texture(centres: FloatArray, sizes: FloatArray) -> BoolArray:
 def _is_noise(field: Field, found: Crossings, areas: FloatArray) -> BoolArray:
     """Which outlines are nowhere far enough beyond the level."""
     first, second = found.excesses(field)
+    highest, lowest = np.maximum(first, second), np.minimum(first, second)
+    if field.noise < CLEAN:  # pixels that an edge halves lie on the level, and those behind tell
+        down, right = np.where(found.upright, 1, 0), np.where(found.upright, 0, 1)
+        before = field.coverage(found.row - down, found.column - right) - 0.5
+        after = field.coverage(found.row + 2 * down, found.column + 2 * right) - 0.5
+        highest = np.maximum(highest, np.where(found.ink_first, before, after))
+        lowest = np.minimum(lowest, np.where(found.ink_first, after, before))
     order = np.concatenate(found.loops)
     starts = np.concatenate([[0], np.cumsum([len(loop) for loop in found.loops])[:-1]])
-    ink = np.maximum.reduceat(np.maximum(first, second)[order], starts)
-    ground = -np.minimum.reduceat(np.minimum(first, second)[order], starts)
+    ink = np.maximum.reduceat(highest[order], starts)
+    ground = -np.minimum.reduceat(lowest[order], starts)
     depth = np.where(areas > 0, ink, ground)
     largest = np.clip(LARGEST_PART * field.values.size, *LARGEST)
     faint = depth < FAINT + DEVIATIONS * field.noise

@@ -124,3 +124,12 @@ def test_what_was_left_out_is_drawn_on_request(shapespline, tmp_path):
     code, _, err = shapespline("trace", picture, "--left-out", "-o", output)
     assert code == 1
     assert "nothing was left out" in err
+
+
+def test_a_hole_whose_rim_is_grey_by_half_stays():
+    """All the pixels beside its level line lie on the level: the hole is told by those behind."""
+
+    def frame(x, y):
+        return np.abs(np.maximum(np.abs(x - 20), np.abs(y - 20)) - 4.5) < 3.0
+
+    assert parts_and_holes(trace(dark(coverage(frame, 40, 40)))) == (1, 1)
