@@ -8,7 +8,8 @@ import numpy as np
 
 from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
-from shapespline.tracing.edges import drawn_shares, level_shares, no_edges
+from shapespline.tracing.dots import dotted
+from shapespline.tracing.edges import NOISIEST, drawn_shares, level_shares, no_edges
 from shapespline.tracing.inks import inks_of, moved_to_own
 from shapespline.tracing.roundings import rounded
 from shapespline.tracing.softness import Softness
@@ -97,6 +98,9 @@ def drawn_lines(
     outlines = sharpened(outlines, level_lines, cornered, field, soft, inks)
     if not soft.blur:
         outlines = rounded(outlines, cornered, field, inks)
+        if field.noise <= NOISIEST:
+            outlines, dots = dotted(outlines, level_lines, field, inks)
+            accuracies = np.where(dots, DRAWN_ACCURACY, accuracies).tolist()
     outlines = [np.clip(points, 0, (width, height)) for points in outlines]
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
 
