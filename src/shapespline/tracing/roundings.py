@@ -32,10 +32,10 @@ if TYPE_CHECKING:
 # their own points (TRC-29).
 SMALLEST, LARGEST = 0.65, 8.0
 # Lengths along the outline from the middle of an arc to where its sides are looked at, which it has
-# to end before by so much; how far sides are looked at, how far from the next turn they end at
-# least, in parts of the former, too, and how far they may be from a line in the mean (TRC-29).
+# to end before by so much; how far sides are looked at, how far from the next turn they end, and
+# how far they may be from a line in the mean (TRC-29).
 NEARS, BEFORE = (1.7, 2.1, 2.5, 3.0, 3.6, 4.3, 5.2, 6.3, 7.5), 0.35
-SIDES, CLEAR, CLEAR_PART, STRAIGHT = (4.0, 2.0, 1.0), 1.25, 0.6, 0.015
+SIDES, CLEAR, STRAIGHT = (4.0, 2.0, 1.0), 1.25, 0.015
 # Points of sides are disturbed so far beyond an arc: its pixels reach there.
 DISTURBED = 0.8
 # Half a turn and nearly so leads to the side on which the other one lies, whatever its angle.
@@ -50,6 +50,9 @@ TOLD, TOLD_NOISE, BETTER = 0.012, 1.5, 0.5
 # As much for each pixel of what lies between the arc and the corner in its place; pixels that miss
 # an outline by no more agree with it.
 OF_CORNER, AGREES = 0.12, 0.006
+# Arcs are looked for no farther from a pixel that misses the outline by so much, and so many
+# deviations of the noise.
+MISSED, MISSED_NOISE, ABOUT = 0.02, 3.0, 2
 # What misses them by more is not tried again from the same sides.
 HOPELESS = 0.05
 # Points of each side, of an arc, and between both.
@@ -75,8 +78,9 @@ def rounded(
     inks : ndarray, shape (n,)
         What the ink of each is worth, of that of the picture.
     """
-    shortest = 2 * (NEARS[0] + SIDES[-1])
-    used = [k for k, one in enumerate(outlines) if drawn[k] and length_of(one) >= shortest]
+    now = border_coverage(outlines, *field.shape)
+    wrong_pixels = _wrong_pixels(now, field)
+    used = _looked_at(outlines, drawn, wrong_pixels)
     if not used:
         return list(outlines)
     ways = Ways([outlines[k] for k in used], [True] * len(used))
@@ -86,10 +90,10 @@ def rounded(
     after, ahead = _next(turns, ways)
     room = np.minimum(ahead, ahead[np.argsort(after)])
     reach = np.zeros(len(at))
-    now = border_coverage(outlines, *field.shape)
     found = NONE._replace(runs=np.empty((0, ARC_POINTS + 2 * BETWEEN, 2)))
     clear = False
-    left, hopeless, least = np.ones(len(at), dtype=bool), np.zeros(len(at)), np.zeros(len(at))
+    left = wrong_pixels.about(ways.at(own, at))
+    hopeless, least = np.zeros(len(at)), np.zeros(len(at))
     for nearest in (False, True):
         some, near, touching, shift = _sides_found(
             ways, turns, room, np.where(left, least, np.inf), nearest=nearest
@@ -135,6 +139,41 @@ def rounded(
         hopeless[some] = np.where(off > HOPELESS, near, 0.0)
         least[some[off > HOPELESS]] = 0.0
     return with_corners(outlines, found, closed) if clear else list(outlines)
+
+
+class _WrongPixels(NamedTuple):
+    """Pixels about those that miss a drawing, and the size of the picture."""
+
+    keys: IntArray
+    height: int
+    width: int
+
+    def about(self, points: FloatArray) -> BoolArray:
+        """Which points lie in them."""
+        row, column = np.floor(self.height - points[:, 1]), np.floor(points[:, 0])
+        return np.isin((row * self.width + column).astype(np.int64), self.keys)
+
+
+def _looked_at(
+    outlines: Sequence[FloatArray], drawn: Sequence[bool], wrong_pixels: _WrongPixels
+) -> list[int]:
+    """Outlines that pass by such pixels, and are long enough for an arc and two sides."""
+    shortest = 2 * (NEARS[0] + SIDES[-1])
+    starts = np.cumsum([0, *(len(one) for one in outlines)])[:-1]
+    wrong = np.logical_or.reduceat(wrong_pixels.about(np.concatenate(outlines)), starts)
+    chosen = np.flatnonzero(wrong & np.array(drawn)).tolist()
+    return [k for k in chosen if length_of(outlines[k]) >= shortest]
+
+
+def _wrong_pixels(now: Covered, field: Field) -> _WrongPixels:
+    """Where an arc may be missing."""
+    height, width = field.shape
+    row, column = np.divmod(now.keys, width)
+    off = np.abs(field.ink(row, column) - now.part)
+    keys = now.keys[off > MISSED + MISSED_NOISE * field.noise]
+    beside = np.arange(-ABOUT, ABOUT + 1)
+    keys = np.unique(keys[:, None, None] + width * beside[:, None] + beside)
+    return _WrongPixels(keys, height, width)
 
 
 class Arcs(NamedTuple):
@@ -254,7 +293,7 @@ def _sides_found(
     tried = np.meshgrid(SIDES, NEARS, np.flatnonzero(least < np.inf), indexing="ij")
     size, near, some = (np.ravel(one.swapaxes(0, int(nearest))) for one in tried)
     used = near >= least[some]
-    used &= near + size <= room[some] - np.maximum(CLEAR, CLEAR_PART * near)
+    used &= near + size <= room[some] - CLEAR
     near, size, some = near[used], size[used], some[used]
     sides, fit = [], np.ones(len(some), dtype=bool)
     for sign in (-1.0, 1.0):
