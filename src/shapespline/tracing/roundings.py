@@ -135,8 +135,8 @@ def rounded(
             clear = bool((_mean(missed, along) > np.maximum(off, AGREES))[is_end].any())
         found = found.joined(corners.chosen(good))
         left[some] = ~good
-        # What is far off disturbs what lies beside.
-        hopeless[some] = np.where(off > HOPELESS, near, 0.0)
+        # What is far off disturbs what lies beside; where nothing was found, nothing changes.
+        hopeless[some] = np.where((off > HOPELESS) | ~good.any(), near, 0.0)
         least[some[off > HOPELESS]] = 0.0
     return with_corners(outlines, found, closed) if clear else list(outlines)
 
