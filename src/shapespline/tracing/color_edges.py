@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 
 # A border's crossings are no nearer to a pixel's centre than this while its course is told.
 INNER = 0.02
+# A pixel that is half of each colour has the label of one; its border passes through its centre
+# (TRC-32).
+TIE = 1e-6
 # Pixels on either side of a crossing in which its place is looked for.
 NEAR = 1
 # Borders that are looked at together.
@@ -142,7 +145,7 @@ def node_places(seen: Seen, borders: Borders) -> NodePlaces:
         axis = seen.axis(own.first, own.second)
         across = seen.across(own, axis, OFFSETS)
         first, second = across[:, REACH - 1] - 0.5, across[:, REACH] - 0.5
-        told = (first < 0) & (second > 0)
+        told = (first < TIE) & (second > -TIE) & (second - first > 2 * TIE)
         share = np.where(told, first / np.where(told, first - second, 1.0), 0.5)
         level[index] = drawn[index] = np.clip(share, INNER, 1 - INNER)
         if seen.soft.on_level:
