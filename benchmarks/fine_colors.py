@@ -45,6 +45,7 @@ PALETTES = {
     "map": ("#9fd3f0", "#7bbf6a", "#e8c96b", "#d9776a", "#8d6fae"),
     "dark": ("#202830", "#ffd54f", "#ef5350", "#90a4ae", "#ffffff"),
 }
+KINDS = ("PNG", "JPEG", "counted")
 FILLS = ("#ffffff", "#f44336", "#2196f3", "#ffeb3b", "#222222")
 BORDERS = 30
 # Samples of a border so near to a corner, in pixels, are left out.
@@ -245,7 +246,7 @@ def main() -> None:
     columns = "hue, median | worst | lost, mean % | worst | nib, median | worst | failed | s"
     print(f"| kind | {columns} |\n|---|---|---|---|---|---|---|---|---|")
     for group in (lines, texts, outlined, borders):
-        for kind in ("PNG", "JPEG", "counted"):
+        for kind in KINDS:
             every: list[Told] = []
             failed, began = 0, time.perf_counter()
             for drawn in group():

@@ -2,47 +2,36 @@
 
 The colours are those of its even parts, quantised by Pillow. What lies between two even parts is a
 mixture of their colours and belongs to the one of which it has more: an edge never becomes a third
-colour. What is no mixture of colours nearby, a thin stroke, is one with any other of the palette.
+colour. Thin strokes have none of these; their inks are told by what they mix to (thin_inks), and
+which of them a stroke is of by its cores.
 """
 
 from __future__ import annotations
 
-from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline.errors import DegenerateContourError, InvalidInputError
+from shapespline.tracing.cores import APART, BESIDE, NEARBY, with_cores
 from shapespline.tracing.layer import strips
-from shapespline.tracing.smeared import are_smeared
+from shapespline.tracing.mixtures import nearest_color, unmixed
+from shapespline.tracing.thin_inks import with_thin_inks
 from shapespline.tracing.threads import LACKS, is_thread
+from shapespline.tracing.told import TOGETHER, Told, even_pixels
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
 
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 MOST_COLORS = 64
-# Even pixels that tell the colours well enough, and pixels that are looked at together.
-SAMPLE, TOGETHER = 2_000_000, 1_000_000
-# Neighbours of an even pixel differ by no more, of 255 in each channel.
-EVEN = 10
-# "auto" finds no more colours than this; each has at least this part of the even pixels, and is at
-# least so far from all others (root mean square over the channels, of 255).
-AUTO_MOST, AUTO_PART, AUTO_APART = 16, 0.001, 14.0
+# Even pixels that tell the colours well enough.
+SAMPLE = 2_000_000
+# "auto" finds no more colours than this; each has at least this part of the even pixels.
+AUTO_MOST, AUTO_PART = 16, 0.001
 # A colour that so many pixels of a class share is the colour of the class, exactly.
 EXACT_PART = 0.3
-# Even pixels within so many pixels are nearby. A pixel farther than this from a mixture of two of
-# their colours is a mixture with another.
-NEARBY, MIXED = 2, 20.0
-# Edges of JPEG's colours are looked for between even pixels so far away; of what is no mixture this
-# part is theirs where it is theirs at all; they ring by so much (TRC-25).
-SMEARED, MOST_SMEARED, RINGING = 8, 0.6, 30.0
-# So many pixels, and this part of the picture, that are no mixtures have a colour of their own:
-# that of this part of them, the farthest from the colours around them.
-THIN, THIN_PART, FARTHEST_PART = 6, 1e-5, 0.1
 
 
 class Palette(NamedTuple):
@@ -68,9 +57,10 @@ def palette_of(pixels: NDArray[np.uint8], colors: int | str) -> Palette:
     DegenerateContourError
         If it has one only.
     """
-    even = _even(pixels)
+    even = even_pixels(pixels)
     told = even if even.sum() > 0.01 * even.size else np.ones_like(even)
-    found = _with_thin(pixels, even, _chosen(pixels, told, colors), colors)
+    most = AUTO_MOST if colors == "auto" else int(colors)
+    found = with_thin_inks(pixels, even, _chosen(pixels, told, colors), most)
     if colors != "auto" and len(found) < int(colors):
         raise InvalidInputError(
             f"colors asks for {colors}, but the picture has {len(found)} that are no mixtures of"
@@ -81,23 +71,6 @@ def palette_of(pixels: NDArray[np.uint8], colors: int | str) -> Palette:
             "the picture has one colour only: there is no border to trace; choose another file"
         )
     return Palette(found, _labels(pixels, even, found))
-
-
-def _even(pixels: NDArray[np.uint8]) -> BoolArray:
-    """Pixels that hardly differ from their eight neighbours."""
-    from scipy import ndimage
-
-    even = np.empty(pixels.shape[:2], dtype=bool)
-    for rows in strips(even.shape, TOGETHER):
-        above = max(rows.start - 1, 0)
-        seen = pixels[above : rows.stop + 1]
-        spread = [
-            ndimage.maximum_filter(channel, 3) - ndimage.minimum_filter(channel, 3)
-            for channel in np.moveaxis(seen, -1, 0)
-        ]
-        own = slice(rows.start - above, rows.stop - above)
-        even[rows] = np.max(spread, axis=0)[own] <= EVEN
-    return even
 
 
 def _chosen(pixels: NDArray[np.uint8], told: BoolArray, colors: int | str) -> FloatArray:
@@ -123,7 +96,7 @@ def _chosen(pixels: NDArray[np.uint8], told: BoolArray, colors: int | str) -> Fl
     else:
         quantised = image.quantize(most, method=Image.Quantize.MAXCOVERAGE, kmeans=3)
         table = np.array(quantised.getpalette()).reshape(-1, 3)[:most].astype(np.float64)
-        member = _nearest(exact.astype(np.float64), table)
+        member = nearest_color(exact.astype(np.float64), table)
     classes = []
     for index in np.unique(member):
         own = np.flatnonzero(member == index)
@@ -140,94 +113,6 @@ def _chosen(pixels: NDArray[np.uint8], told: BoolArray, colors: int | str) -> Fl
     return np.array([color for _, color in classes])
 
 
-def _with_thin(
-    pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray, wanted: int | str
-) -> FloatArray:
-    """A palette with the colours of strokes too thin to have even pixels.
-
-    Those are pixels that no two colours of the palette mix to; of them the farthest from it.
-    """
-    most = AUTO_MOST if wanted == "auto" else int(wanted)
-    while True:
-        strange, nearby = _strange(pixels, even, colors)
-        if len(strange) < max(THIN, THIN_PART * even.size):
-            break
-        nearby[~nearby.any(axis=1)] = True
-        off = np.sqrt(((strange[:, None] - colors) ** 2).mean(axis=2))
-        off = np.where(nearby, off, np.inf).min(axis=1)
-        farthest = strange[off >= np.quantile(off, 1 - FARTHEST_PART)]
-        new = np.median(farthest, axis=0)
-        if len(colors) == most:  # in place of the rarest, if that is a shade of another
-            apart = np.sqrt(((colors[:-1] - colors[-1]) ** 2).mean(axis=1)).min()
-            if apart > 3 * AUTO_APART:
-                break
-            colors = colors[:-1]
-        if np.sqrt(((colors - new) ** 2).mean(axis=1)).min() < AUTO_APART:
-            break
-        colors = np.concatenate([[new], colors])
-    return colors
-
-
-def _strange(
-    pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray
-) -> tuple[FloatArray, BoolArray]:
-    """Values that no two colours mix to, and which colours are near each.
-
-    Where most of them are seen to be smeared edges, what may be one is.
-    """
-    found, near = [np.empty((0, 3))], [np.empty((0, len(colors)), dtype=bool)]
-    smeared = [np.empty(0, dtype=bool)]
-    labels, count = _even_labels(pixels, even, colors), len(colors)
-    for (where, nearby), (_, around) in zip(
-        _uneven(even, labels, count), _uneven(even, labels, count, SMEARED), strict=True
-    ):
-        values = pixels[where].astype(np.float64)
-        is_strange = _unmixed(values, nearby, colors)[1]
-        found.append(values[is_strange])
-        near.append(nearby[is_strange])
-        smeared.append(are_smeared(values[is_strange], around[is_strange], colors, MIXED))
-    values, nearby, edges = np.concatenate(found), np.concatenate(near), np.concatenate(smeared)
-    if len(edges) and edges.mean() >= MOST_SMEARED:
-        kept = ~are_smeared(values, np.ones_like(nearby), colors, RINGING)
-        values, nearby = values[kept], nearby[kept]
-    return values, nearby
-
-
-def _even_labels(
-    pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray
-) -> NDArray[np.int8]:
-    labels = np.zeros(even.shape, dtype=np.int8)
-    for rows in strips(even.shape, TOGETHER):
-        own = even[rows]
-        labels[rows][own] = _nearest(pixels[rows][own].astype(np.float64), colors)
-    return labels
-
-
-def _uneven(
-    even: BoolArray, labels: NDArray[np.int8], count: int, reach: int = NEARBY
-) -> Iterator[tuple[tuple[IntArray, IntArray], BoolArray]]:
-    """Places of pixels that are not even, some at a time.
-
-    And which colours the even ones around each have, shape (n, count).
-    """
-    for rows in strips(even.shape, TOGETHER):
-        row, column = np.nonzero(~even[rows])
-        if len(row) == 0:
-            continue
-        above = max(rows.start - reach, 0)
-        seen = slice(above, rows.stop + reach)
-        # A bit for each colour.
-        bits = np.where(even[seen], np.uint64(1) << labels[seen].astype(np.uint64), np.uint64(0))
-        for side in (bits, bits.T):
-            alone = side.copy()
-            for step in range(1, reach + 1):
-                side[step:] |= alone[:-step]
-                side[:-step] |= alone[step:]
-        near = bits[row + rows.start - above, column]
-        known = (near[:, None] >> np.arange(count, dtype=np.uint64)) & np.uint64(1)
-        yield (row + rows.start, column), known.astype(bool)
-
-
 def _clearly_different(
     classes: list[tuple[int, FloatArray]], total: int
 ) -> list[tuple[int, FloatArray]]:
@@ -235,29 +120,18 @@ def _clearly_different(
     kept: list[tuple[int, FloatArray]] = []
     for count, color in classes:
         apart = [float(np.sqrt(((color - other) ** 2).mean())) for _, other in kept]
-        if count >= AUTO_PART * total and min(apart, default=np.inf) >= AUTO_APART:
+        if count >= AUTO_PART * total and min(apart, default=np.inf) >= APART:
             kept.append((count, color))
     return kept[:AUTO_MOST]
 
 
-def _nearest(values: FloatArray, colors: FloatArray) -> IntArray:
-    """Index of the nearest colour of each value."""
-    channels = np.ascontiguousarray(values.T)  # one after the other is twice as fast
-    best = np.full(len(values), np.inf)
-    index = np.zeros(len(values), dtype=np.int64)
-    for k, color in enumerate(colors):
-        off = sum((channel - value) ** 2 for channel, value in zip(channels, color, strict=True))
-        closer = off < best
-        np.copyto(best, off, where=closer)
-        index[closer] = k
-    return index
-
-
 def _labels(pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray) -> NDArray[np.int8]:
     """Index of a colour for each pixel."""
-    labels = _even_labels(pixels, even, colors)
-    for where, nearby in _uneven(even, labels.copy(), len(colors)):
-        own, _, other, share = _unmixed(pixels[where].astype(np.float64), nearby, colors)
+    told = with_cores(pixels, Told.by_even(pixels, even, colors), colors)
+    labels = told.labels.copy()
+    for where in told.others():
+        nearby, around = told.around(where, NEARBY), told.around(where, BESIDE)
+        own, other, _, share = unmixed(pixels[where].astype(np.float64), nearby, colors, around)
         may_be = np.flatnonzero(share >= 0.5 - LACKS)
         at = (where[0][may_be], where[1][may_be])
         of_thread = _on_threads(pixels, at, colors[own[may_be]], colors[other[may_be]])
@@ -281,44 +155,6 @@ def _on_threads(
         seen = ((pixels[row, column] - colors[part, None, None]) * along[:, None, None]).sum(axis=3)
         found[part] = is_thread(seen / (along**2).sum(axis=1)[:, None, None])
     return found
-
-
-def _unmixed(
-    values: FloatArray, nearby: BoolArray, colors: FloatArray
-) -> tuple[IntArray, BoolArray, IntArray, FloatArray]:
-    """The colour of which each value has more, mixed of two with one nearby; which are none.
-
-    And the other of the two, with how much of it there is.
-    """
-    # Where nothing nearby is even any two may be mixed.
-    nearby = nearby | ~nearby.any(axis=1, keepdims=True)
-    label = _nearest(values, colors)
-    best = np.full(len(values), MIXED**2 * 3)
-    other, least = label.copy(), np.zeros(len(values))
-    for pairs in (_nearby_pairs, _pairs_with_one):
-        open_values = np.flatnonzero(best == MIXED**2 * 3)
-        if len(open_values) == 0:
-            break
-        for a, b in combinations(range(len(colors)), 2):
-            own = open_values[pairs(nearby[open_values], a, b)]
-            along = colors[b] - colors[a]
-            from_a = values[own] - colors[a]
-            share = np.clip(from_a @ along / (along @ along), 0.0, 1.0)
-            off = ((from_a - share[:, None] * along) ** 2).sum(axis=1)
-            closer = off < best[own]
-            best[own[closer]] = off[closer]
-            less = share[closer] < 0.5
-            label[own[closer]], other[own[closer]] = np.where(less, a, b), np.where(less, b, a)
-            least[own[closer]] = np.minimum(share[closer], 1.0 - share[closer])
-    return label, best == MIXED**2 * 3, other, least
-
-
-def _nearby_pairs(nearby: BoolArray, a: int, b: int) -> BoolArray:
-    return nearby[:, a] & nearby[:, b]
-
-
-def _pairs_with_one(nearby: BoolArray, a: int, b: int) -> BoolArray:
-    return nearby[:, a] | nearby[:, b]
 
 
 def merged(palette: Palette, least: float) -> tuple[Palette, int]:

@@ -14,7 +14,7 @@ from tests.support.command_line import one_line
 
 import shapespline as ss
 from shapespline.errors import DegenerateContourError, InvalidInputError, PictureWarning
-from shapespline.tracing import palette, trace
+from shapespline.tracing import palette, told, trace
 
 COLORS = {"#145aa0", "#dc1e28", "#ffdc00", "#1e8c3c", "#ffffff"}
 LARGER = 8
@@ -51,7 +51,8 @@ def test_looked_at_a_few_rows_at_a_time_the_palette_is_the_same(monkeypatch):
         colors, labels = palette.palette_of(picture, "auto")
         areas, count = palette.merged(palette.Palette(colors, labels), 6.0)
         with monkeypatch.context() as rows:
-            rows.setattr(palette, "TOGETHER", 700)  # three
+            for module in (palette, told):
+                rows.setattr(module, "TOGETHER", 700)  # three
             again = palette.palette_of(picture, "auto")
             assert_array_equal(again.colors, colors)
             assert_array_equal(again.labels, labels)

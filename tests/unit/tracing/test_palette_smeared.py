@@ -9,7 +9,8 @@ import pytest
 from PIL import Image
 from tests.support.rendering import coverage, tile
 
-from shapespline.tracing.palette import EVEN, palette_of
+from shapespline.tracing.palette import palette_of
+from shapespline.tracing.told import EVEN
 
 SIDE = 96
 WHITE = np.array([255.0, 255, 255])
