@@ -152,17 +152,19 @@ def _numbers(crossed: BoolArray, row: IntArray, column: IntArray, first: int = 0
 def _apart(
     padded: NDArray[np.signedinteger], r: int, c: int
 ) -> tuple[tuple[int, int], tuple[int, int]] | None:
-    """Pairs of sides that belong together where two labels, each twice, meet by their corners.
+    """Pairs of sides that belong together where a label, or two, meets itself by a corner.
 
-    What there is less of around is joined.
+    What there is less of around is joined. So is a stroke between two areas, if there is less of it
+    than of both (TRC-35).
     """
-    a, b = padded[r, c], padded[r, c + 1]
-    if a != padded[r + 1, c + 1] or b != padded[r + 1, c]:
-        return None
+    (a, b), (e, d) = padded[r : r + 2, c : c + 2].tolist()
     around = padded[max(r - 2, 0) : r + 4, max(c - 2, 0) : c + 4]
-    if (around == a).sum() <= (around == b).sum():  # upper left and lower right are joined
+    falling, rising = np.isin(around, (a, d)).sum(), np.isin(around, (b, e)).sum()
+    if a == d and (falling <= rising if b == e else falling < rising):
         return (0, 1), (2, 3)
-    return (0, 3), (1, 2)
+    if b == e and (a == d or rising < falling):
+        return (0, 3), (1, 2)
+    return None
 
 
 def rings_of(borders: Borders, points: FloatArray) -> tuple[list[Arc], list[Ring]]:

@@ -22,6 +22,7 @@ from shapespline.tracing.edges import (
     half_way,
     places_across,
 )
+from shapespline.tracing.mixtures import ink_axis
 from shapespline.tracing.pixels import LUMA, STRONG
 from shapespline.tracing.softness import SHARP, Softness
 
@@ -39,6 +40,8 @@ INNER = 0.02
 # A pixel that is half of each colour has the label of one; its border passes through its centre
 # (TRC-32).
 TIE = 1e-6
+# A stroke of no more pixels between two grounds is told apart from both (TRC-35).
+STROKE = 3
 # Pixels on either side of a crossing in which its place is looked for.
 NEAR = 1
 # Borders that are looked at together.
@@ -143,6 +146,9 @@ def node_places(seen: Seen, borders: Borders) -> NodePlaces:
     known = np.zeros(len(rim), dtype=bool)
     for index, own in _inner(nodes):
         axis = seen.axis(own.first, own.second)
+        if not seen.soft.blur:
+            step = _to_other_ground(seen, own)
+            axis = ink_axis(seen.palette.colors[own.second] - seen.palette.colors[own.first], step)
         across = seen.across(own, axis, OFFSETS)
         first, second = across[:, REACH - 1] - 0.5, across[:, REACH] - 0.5
         told = (first < TIE) & (second > -TIE) & (second - first > 2 * TIE)
@@ -156,8 +162,9 @@ def node_places(seen: Seen, borders: Borders) -> NodePlaces:
         noise = seen.noise_along(axis)
         even = EVEN + EVEN_NOISE * float(np.median(noise))
         ahead = places_across(across, even) - REACH + 0.5
-        moved = np.abs(ahead - share) <= FARTHEST
-        known[index] = moved & told & (noise <= NOISIEST)
+        # Of a stroke thinner than a pixel its level tells little.
+        moved = (np.abs(ahead - share) <= FARTHEST) | (np.abs(ahead - 0.5) <= 0.5)
+        known[index] = moved & (noise <= NOISIEST)
         drawn[index] = np.where(known[index], ahead, share)
     found = []
     for shares in (level, drawn):
@@ -167,6 +174,28 @@ def node_places(seen: Seen, borders: Borders) -> NodePlaces:
         junctions = [_junction(own_places, four, rim, (width, height)) for four in borders.cells]
         found.append(np.concatenate([own_places, _pairs(junctions), _pairs(borders.corners)]))
     return NodePlaces(found[0], found[1], np.pad(known, (0, len(found[0]) - len(known))))
+
+
+def _to_other_ground(seen: Seen, nodes: Nodes) -> FloatArray:
+    """From the ground beside a thin stroke to that on its other side; zero where there is none."""
+    height, width = seen.size
+    offsets = np.arange(-STROKE, STROKE + 2)
+    row = nodes.row[:, None] + np.where(nodes.upright[:, None], offsets, 0)
+    column = nodes.column[:, None] + np.where(nodes.upright[:, None], 0, offsets)
+    labels = seen.palette.labels[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
+    each = np.arange(len(labels))
+    thin, beyond = [], []
+    for ahead in (labels[:, STROKE::-1], labels[:, STROKE + 1 :]):
+        other = ahead != ahead[:, :1]
+        thin.append(other.any(axis=1))
+        beyond.append(ahead[each, other.argmax(axis=1)])
+    colors = seen.palette.colors
+    first, second = (
+        colors[beyond[1]] - colors[nodes.first],
+        colors[beyond[0]] - colors[nodes.second],
+    )
+    step = np.where((thin[1] & ~thin[0])[:, None], first, 0.0)
+    return np.where((thin[0] & ~thin[1])[:, None], second, step)
 
 
 def _inner(nodes: Nodes) -> Iterator[tuple[IntArray, Nodes]]:

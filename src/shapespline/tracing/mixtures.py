@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 # A value farther than this (root mean square over the channels, of 255) from each mixture of two
 # colours is none.
 MIXED = 20.0
+# Of the way to an ink this part at least leads aside from the way to another ground (TRC-35).
+ASIDE = 0.3
 
 
 def nearest_color(values: FloatArray, colors: FloatArray) -> IntArray:
@@ -36,6 +38,31 @@ def off_mixture(
     from_first = values - first
     share = np.clip(from_first @ along / (along @ along), 0.0, 1.0)
     return ((from_first - share[:, None] * along) ** 2).sum(axis=1), share
+
+
+def ink_axis(along: FloatArray, step: FloatArray) -> FloatArray:
+    """What values, less their ground, are multiplied by to tell how much of an ink they have.
+
+    Parameters
+    ----------
+    along : ndarray, shape (n, 3)
+        From the ground to the ink.
+    step : ndarray, shape (n, 3)
+        From the ground to another one on the other side of the ink; zero where there is none. What
+        is mixed of all three is told apart, unless the second ground lies towards the ink.
+
+    Examples
+    --------
+    >>> white_to_black, white_to_blue = np.full((1, 3), -255.0), np.array([(-255.0, -255, 0)])
+    >>> half_of_both = np.array([-255.0, -255, -127.5])
+    >>> float((ink_axis(white_to_black, white_to_blue) @ half_of_both).item())
+    0.5
+    """
+    length = np.maximum((step**2).sum(axis=1), 1e-9)
+    towards = along - ((along * step).sum(axis=1) / length)[:, None] * step
+    aside = (towards**2).sum(axis=1) >= ASIDE**2 * (along**2).sum(axis=1)
+    towards = np.where(aside[:, None], towards, along)
+    return np.asarray(towards / np.maximum((towards * along).sum(axis=1), 1e-9)[:, None])
 
 
 def unmixed(
@@ -70,17 +97,17 @@ def unmixed(
     """
     # Where nothing nearby is even any two may be mixed.
     nearby = nearby | ~nearby.any(axis=1, keepdims=True)
-    around = nearby if around is None else around
+    every = np.ones_like(nearby)
     label = nearest_color(values, colors)
     best = np.full(len(values), MIXED**2 * 3)
     other, least = label.copy(), np.zeros(len(values))
-    for others in (nearby, around, np.ones_like(nearby)):
+    for others in (nearby, every) if around is None else (nearby, around, every):
         open_values = np.flatnonzero(best == MIXED**2 * 3)
         if len(open_values) == 0:
             break
+        one, two = nearby[open_values].T.copy(), others[open_values].T.copy()
         for a, b in combinations(range(len(colors)), 2):
-            one, two = nearby[open_values], others[open_values]
-            own = open_values[(one[:, a] & two[:, b]) | (one[:, b] & two[:, a])]
+            own = open_values[(one[a] & two[b]) | (one[b] & two[a])]
             off, share = off_mixture(values[own], colors[a], colors[b])
             closer = off < best[own]
             best[own[closer]] = off[closer]

@@ -15,7 +15,7 @@ import numpy as np
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.tracing.cores import APART, BESIDE, NEARBY, with_cores
 from shapespline.tracing.layer import strips
-from shapespline.tracing.mixtures import nearest_color, unmixed
+from shapespline.tracing.mixtures import ink_axis, nearest_color, unmixed
 from shapespline.tracing.thin_inks import with_thin_inks
 from shapespline.tracing.threads import LACKS, is_thread
 from shapespline.tracing.told import TOGETHER, Told, even_pixels
@@ -127,33 +127,73 @@ def _clearly_different(
 
 def _labels(pixels: NDArray[np.uint8], even: BoolArray, colors: FloatArray) -> NDArray[np.int8]:
     """Index of a colour for each pixel."""
-    told = with_cores(pixels, Told.by_even(pixels, even, colors), colors)
+    known = Told.by_even(pixels, even, colors)
+    told = with_cores(pixels, known, colors)
     labels = told.labels.copy()
     for where in told.others():
         nearby, around = told.around(where, NEARBY), told.around(where, BESIDE)
-        own, other, _, share = unmixed(pixels[where].astype(np.float64), nearby, colors, around)
+        values = pixels[where].astype(np.float64)
+        own, other, _, share = unmixed(values, nearby, colors, around)
+        on_stroke, ink, part = _on_strokes(values, known.around(where, NEARBY), nearby, colors)
+        inked = part >= 0.5
+        ground = np.where(own == ink, other, own)
+        own[on_stroke] = np.where(inked, ink, ground)[on_stroke]
+        other[on_stroke] = np.where(inked, ground, ink)[on_stroke]
+        share[on_stroke] = np.where(inked, 1.0 - part, part)[on_stroke]
         may_be = np.flatnonzero(share >= 0.5 - LACKS)
         at = (where[0][may_be], where[1][may_be])
-        of_thread = _on_threads(pixels, at, colors[own[may_be]], colors[other[may_be]])
+        ground, ink = own[may_be], other[may_be]
+        step = _to_third(nearby[may_be], ground, ink, colors)
+        axis = ink_axis(colors[ink] - colors[ground], step)
+        of_thread = _on_threads(pixels, at, colors[ground], axis)
         threads = may_be[of_thread]
         own[threads] = other[threads]
         labels[where] = own
     return labels
 
 
+def _on_strokes(
+    values: FloatArray, even: BoolArray, nearby: BoolArray, colors: FloatArray
+) -> tuple[BoolArray, IntArray, FloatArray]:
+    """Which values lie on a thin stroke between two grounds, its ink, and how much of it they have.
+
+    Grounds have even pixels nearby, the stroke has cores alone.
+    """
+    inks = nearby & ~even
+    ink, first = inks.argmax(axis=1), even.argmax(axis=1)
+    second = even.shape[1] - 1 - even[:, ::-1].argmax(axis=1)
+    step = colors[second] - colors[first]
+    axis = ink_axis(colors[ink] - colors[first], step)
+    told_apart = np.abs((axis * step).sum(axis=1)) < 1e-6
+    on_stroke = (inks.sum(axis=1) == 1) & (even.sum(axis=1) == 2) & told_apart
+    part = ((values - colors[first]) * axis).sum(axis=1)
+    return on_stroke, ink, np.clip(part, 0.0, 1.0)
+
+
+def _to_third(nearby: BoolArray, ground: IntArray, ink: IntArray, colors: FloatArray) -> FloatArray:
+    """From a ground to the one other colour nearby that is not the ink; zero where is none."""
+    third = nearby.copy()
+    each = np.arange(len(ground))
+    third[each, ground] = third[each, ink] = False
+    step = colors[third.argmax(axis=1)] - colors[ground]
+    return np.where((third.sum(axis=1) == 1)[:, None], step, 0.0)
+
+
 def _on_threads(
-    pixels: NDArray[np.uint8], at: tuple[IntArray, ...], colors: FloatArray, others: FloatArray
+    pixels: NDArray[np.uint8], at: tuple[IntArray, ...], grounds: FloatArray, axis: FloatArray
 ) -> BoolArray:
-    """Which pixels lie on strokes of another colour about a pixel wide, of which they have less."""
+    """Which pixels lie on strokes of another colour about a pixel wide, of which they have less.
+
+    Along an axis from each ground to that colour.
+    """
     offsets = np.arange(-2, 3)
     height, width = pixels.shape[:2]
-    found = np.zeros(len(colors), dtype=bool)
-    for part in np.array_split(np.arange(len(colors)), len(colors) // 100_000 + 1):
+    found = np.zeros(len(grounds), dtype=bool)
+    for part in np.array_split(np.arange(len(grounds)), len(grounds) // 100_000 + 1):
         row = np.clip(at[0][part, None, None] + offsets[:, None], 0, height - 1)
         column = np.clip(at[1][part, None, None] + offsets, 0, width - 1)
-        along = others[part] - colors[part]
-        seen = ((pixels[row, column] - colors[part, None, None]) * along[:, None, None]).sum(axis=3)
-        found[part] = is_thread(seen / (along**2).sum(axis=1)[:, None, None])
+        seen = pixels[row, column] - grounds[part, None, None]
+        found[part] = is_thread((seen * axis[part, None, None]).sum(axis=3))
     return found
 
 

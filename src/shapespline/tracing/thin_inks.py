@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.tracing.cores import APART, NEARBY, are_cores, full
-from shapespline.tracing.mixtures import MIXED, unmixed
+from shapespline.tracing.mixtures import MIXED, off_mixture, unmixed
 from shapespline.tracing.smeared import are_smeared
 from shapespline.tracing.told import Told
 
@@ -31,6 +31,8 @@ SAMPLE = 1000
 # Cores that an ink within so many pixels mixes to may be of it; so many times as many to which none
 # does have a colour of their own (TRC-33).
 AROUND, CLEARLY = 8, 4
+# With more of an ink than this a stroke is of it (TRC-33).
+FULL_PART = 0.75
 
 
 def with_thin_inks(
@@ -41,19 +43,31 @@ def with_thin_inks(
     First those of pixels that no two colours mix to, then those of strokes that might be a mixture.
     """
     least = max(THIN, THIN_PART * even.size)
-    while True:
+    inks = np.empty((0, 3))
+    for _ in range(most):  # inks may take each other's place
         told = Told.by_even(pixels, even, colors)
         new = _new_ink(*_strange(pixels, told, colors), colors, least)
         if new is None:
             new = _new_ink(*_pale(pixels, told, colors), colors, CLEARLY * least)
         if new is None:
             return colors
-        if len(colors) == most:  # in place of the rarest, if that is a shade of another
+        grounds = colors[len(inks) :]
+        inks = inks[[not _is_shade(ink, new, grounds) for ink in inks]]
+        if len(inks) + len(grounds) == most:
+            # In place of the rarest, if that is a shade of another.
             apart = np.sqrt(((colors[:-1] - colors[-1]) ** 2).mean(axis=1)).min()
-            if apart > 3 * APART:
+            if apart > 3 * APART or len(grounds) == 1:
                 return colors
-            colors = colors[:-1]
-        colors = np.concatenate([[new], colors])
+            grounds = grounds[:-1]
+        inks = np.concatenate([[new], inks])
+        colors = np.concatenate([inks, grounds])
+    return colors
+
+
+def _is_shade(ink: FloatArray, new: FloatArray, grounds: FloatArray) -> bool:
+    """Whether an ink is what a new one mixes to where it covers almost all."""
+    found = (off_mixture(ink[None], ground, new) for ground in grounds)
+    return any(off[0] <= MIXED**2 * 3 and FULL_PART < share[0] < 1.0 for off, share in found)
 
 
 def _new_ink(
@@ -118,7 +132,10 @@ def _strange(
 def _pale(
     pixels: NDArray[np.uint8], even: Told, colors: FloatArray
 ) -> tuple[FloatArray, BoolArray]:
-    """Cores of strokes that are mixtures with an ink that is nowhere around; as _strange."""
+    """Cores of strokes that are mixtures with an ink that is nowhere around; as _strange.
+
+    Near two even colours there are none: edges of a JPEG ring.
+    """
     every = even._replace(pixels=even.pixels.copy(), labels=even.labels.copy())
     for where in even.others():
         every.labels[where], every.pixels[where] = full(pixels[where].astype(np.float64), colors)
@@ -126,11 +143,13 @@ def _pale(
     for where in even.others():
         nearby = even.around(where, NEARBY)
         own = np.flatnonzero(are_cores(pixels, where, nearby, colors))
+        own = own[even.around((where[0][own], where[1][own]), SMEARED).sum(axis=1) == 1]
         at, nearby = (where[0][own], where[1][own]), nearby[own]
         values, around = pixels[at].astype(np.float64), every.around(at, AROUND)
-        first, second, is_strange, _ = unmixed(values, nearby, colors)
+        first, second, is_strange, least = unmixed(values, nearby, colors)
         each = np.arange(len(own))
-        alone = ~is_strange & ~(around[each, first] & around[each, second])
+        almost = ~around[each, first] & (least < 1.0 - FULL_PART)
+        alone = ~is_strange & ~almost & ~(around[each, first] & around[each, second])
         found.append(values[alone])
         near.append(nearby[alone])
     return np.concatenate(found), np.concatenate(near)
