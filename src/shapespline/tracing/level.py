@@ -12,7 +12,7 @@ References
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,6 +20,8 @@ from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.tracing.layer import Layer, strips
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # Neighbours are even if they differ by no more than this part of the range of values.
@@ -132,15 +134,18 @@ def noise_deviation(values: Layer, contrast: float) -> float:
     """
     step = max(1, round(values.size / NOISE_SAMPLE))
     found = [0.0]
-    for lines in (values[::step], values[:, ::step].T):
+    for sample in (values[::step], values[:, ::step].T):
+        kind = np.int32 if values.is_whole else np.float64
+        lines: NDArray[Any] = np.ascontiguousarray(sample, dtype=kind)
         for gap in (1, 2):
             if lines.shape[1] <= 2 * gap:
                 continue
-            middle = lines[:, gap:-gap].astype(np.float64)
-            left, right = middle - lines[:, : -2 * gap], middle - lines[:, 2 * gap :]
-            even = np.maximum(np.abs(left), np.abs(right)) < EDGE * contrast
-            if even.mean() > LEAST_EVEN:
-                found.append(float(np.median(np.abs(left + right)[even])))
+            steps = lines[:, gap:] - lines[:, :-gap]
+            small = np.abs(steps) < EDGE * contrast
+            even = small[:, gap:] & small[:, :-gap]
+            if np.count_nonzero(even) > LEAST_EVEN * even.size:
+                bends = steps[:, gap:] - steps[:, :-gap]
+                found.append(float(np.median(np.abs(bends[even]))))
     return max(found) / (_NORMAL_MEDIAN * _SECOND_DIFFERENCE)
 
 

@@ -42,6 +42,8 @@ DISTURBED = 0.8
 NEARLY_BACK = np.radians(150.0)
 # Rounds of Newton's method, and their longest step.
 ROUNDS, LONGEST_STEP = 3, 1.0
+# Shorter steps tell that an arc will not agree with its pixels, if all of them are.
+STILL = 0.15
 # Pixels whose middle is so near to an arc tell it, of those so near to its own middle. They may
 # miss the drawing by so much in the mean, and so many deviations of the noise, and by no more than
 # this part of what they miss it by now (TRC-29).
@@ -94,6 +96,7 @@ def rounded(
     clear = False
     left = wrong_pixels.about(ways.at(own, at))
     hopeless, least = np.zeros(len(at)), np.zeros(len(at))
+    told = TOLD + TOLD_NOISE * field.noise
     for nearest in (False, True):
         some, near, touching, shift = _sides_found(
             ways, turns, room, np.where(left, least, np.inf), nearest=nearest
@@ -115,8 +118,11 @@ def rounded(
             missed, along = _missed(arcs, field, border_coverage(tried, *field.shape), ink)
             step = touching.step_for(missed.sum(axis=1), arcs)
             shift = shift + np.clip(step, -LONGEST_STEP, LONGEST_STEP)
+            lost = (np.abs(step) <= STILL) & (_mean(missed, along) > 2.0 * told)
+            if (lost | (touching.arcs(shift).radii < 0.5 * SMALLEST)).all():
+                break
         off, was_off = _mean(missed, along), _mean(*_missed(arcs, field, now, ink))
-        good = (off <= TOLD + TOLD_NOISE * field.noise) & (off <= BETTER * was_off)
+        good = (off <= told) & (off <= BETTER * was_off)
         good &= off <= OF_CORNER * arcs.cut_off / np.sqrt(along.sum(axis=1))
         least[some] = arcs.half_length + BEFORE
         good &= (near >= least[some]) & (arcs.radii >= SMALLEST) & (arcs.radii <= LARGEST)
@@ -340,11 +346,10 @@ def _missed(
     height, width = field.shape
     points = arcs.points(arcs.radii)
     r, c, inside = around(0.5 * (points.min(axis=1) + points.max(axis=1)), field.shape, REACH)
-    near = np.full(c.shape, np.inf)
-    for x, y in np.moveaxis(points, 0, 2):
-        off = np.hypot(c + 0.5 - x[:, None, None], height - r - 0.5 - y[:, None, None])
-        near = np.minimum(near, off)
-    along = inside & (near <= ALONG)
+    x_off = (c[:, 0] + 0.5)[:, None] - points[..., :1]
+    y_off = (height - r[:, :, 0] - 0.5)[:, None] - points[..., 1:]
+    near = (y_off[..., None] ** 2 + x_off[:, :, None] ** 2).min(axis=1)
+    along = inside & (near <= ALONG**2)
     r, c = np.clip(r, 0, height - 1), np.clip(c, 0, width - 1)
     missed = field.ink(r, c) / ink[:, None, None] - covered.at(r, c, width)
     size = (len(r), (2 * REACH + 1) ** 2)

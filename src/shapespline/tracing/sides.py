@@ -6,7 +6,7 @@ through them by least squares, and Newton's method for the point where two of th
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -153,16 +153,14 @@ def meetings(
         spread = BLURRED * soft.blur / np.sin(np.clip(turn, 0.5 * np.pi, MOST_TURN))
         near = np.maximum(disturbed + SQUARE * np.tan(0.5 * turn), LEAST_DISTURBED) + spread
         behind, ahead = _room(ways, own, at, near)
-        sides, wide = [], np.full(len(at), np.inf)
-        for room, sign in ((behind, -1.0), (ahead, 1.0)):
-            far = np.minimum(side + spread, room)
-            sides.append(_side(ways, own, at, near, far, sign, soft))
-            wide = np.minimum(wide, far - near)
-        runs, turn, off, apart = _meeting(sides[0][0], sides[1][0], near)
+        far = np.minimum(side + spread, np.stack([behind, ahead]))
+        wide = (far - near).min(axis=0)
+        sides, fits = _sides(ways, own, at, near, far, soft)
+        runs, turn, off, apart = _meeting(sides, near)
         at = at + np.clip(off, -SAME_CORNER, SAME_CORNER)
-        fit = sides[0][1] & sides[1][1]
+        fit = fits.all(axis=0)
         # Corners that change places are none.
-        columns = (own, at, near, wide, runs, turn, apart, fit)
+        columns: tuple[Any, ...] = (own, at, near, wide, runs, turn, apart, fit)
         while (swapped := (np.diff(at) < 0) & (np.diff(own) == 0)).any():
             kept = ~(np.append(swapped, False) | np.append(False, swapped))
             columns = tuple(column[kept] for column in columns)
@@ -253,16 +251,16 @@ def _turn(before: FloatArray, after: FloatArray) -> FloatArray:
     return np.arctan2(cross, (before * after).sum(axis=1))
 
 
-def _side(
-    ways: Ways,
-    own: IntArray,
-    at: FloatArray,
-    near: FloatArray,
-    far: FloatArray,
-    sign: float,
-    soft: Softness,
+def _sides(
+    ways: Ways, own: IntArray, at: FloatArray, near: FloatArray, far: FloatArray, soft: Softness
 ) -> tuple[FloatArray, BoolArray]:
-    """Polynomials of degree 2 in the distance from each corner, shape (k, 3, 2); which fit."""
+    """Polynomials of degree 2 in the distance from each corner behind and ahead, and which fit.
+
+    ``far`` (2, k) is how far either side is looked at. Shapes (2, k, 3, 2) and (2, k).
+    """
+    count, far = len(at), far.ravel()
+    own, at, near = np.tile(own, 2), np.tile(at, 2), np.tile(near, 2)
+    sign = np.repeat([-1.0, 1.0], count)[:, None]
     span = np.maximum(far - near, SHORTEST_SIDE)
     t = near[:, None] + _SHARES * span[:, None]
     seen = ways.at(np.broadcast_to(own[:, None], t.shape), at[:, None] + sign * t)
@@ -275,7 +273,7 @@ def _side(
     begin, unit = (near / span)[:, None], 1 / span[:, None]
     fitted = [c0 - begin * c1 + begin**2 * c2, unit * (c1 - 2 * begin * c2), unit**2 * c2]
     off, most = np.where(straight, line_off, bent_off), SMOOTH + SCATTERED * soft.scatter
-    return np.stack(fitted, axis=1), off <= most
+    return np.stack(fitted, axis=1).reshape(2, count, 3, 2), (off <= most).reshape(2, count)
 
 
 def _fitted(seen: FloatArray, degree: int) -> tuple[FloatArray, FloatArray]:
@@ -285,36 +283,35 @@ def _fitted(seen: FloatArray, degree: int) -> tuple[FloatArray, FloatArray]:
 
 
 def _meeting(
-    first: FloatArray, second: FloatArray, near: FloatArray
+    sides: FloatArray, near: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Where pairs of sides meet, by Newton's method.
+    """Where pairs of sides, of shape (2, k, 3, 2), meet, by Newton's method.
 
     The points that run there from where each side shows, `near` before and behind; turn; how far
     along; how far apart still.
     """
-    t = np.zeros((len(first), 2))
+    c0, c1, c2 = np.moveaxis(sides, 2, 0)
+    t = np.zeros((*c0.shape[:2], 1))
 
-    def value(side: FloatArray, u: FloatArray) -> FloatArray:
-        return side[:, 0] + u[:, None] * (side[:, 1] + u[:, None] * side[:, 2])
+    def value(t: FloatArray) -> FloatArray:
+        return np.asarray(c0 + t * (c1 + t * c2))
 
-    def slope(side: FloatArray, u: FloatArray) -> FloatArray:
-        return side[:, 1] + 2 * u[:, None] * side[:, 2]
+    def slope(t: FloatArray) -> FloatArray:
+        return np.asarray(c1 + 2 * t * c2)
 
     for _ in range(6):
-        gap = value(second, t[:, 1]) - value(first, t[:, 0])
-        a, b = slope(first, t[:, 0]), slope(second, t[:, 1])
+        (one, two), (a, b) = value(t), slope(t)
+        gap = two - one
         det = b[:, 0] * a[:, 1] - a[:, 0] * b[:, 1]
         det = np.where(np.abs(det) < 1e-9, 1e-9, det)
-        t[:, 0] += (b[:, 0] * gap[:, 1] - b[:, 1] * gap[:, 0]) / det
-        t[:, 1] += (a[:, 0] * gap[:, 1] - a[:, 1] * gap[:, 0]) / det
+        t[0, :, 0] += (b[:, 0] * gap[:, 1] - b[:, 1] * gap[:, 0]) / det
+        t[1, :, 0] += (a[:, 0] * gap[:, 1] - a[:, 1] * gap[:, 0]) / det
         t = np.clip(t, -SIDE, SIDE)
-    ends = value(first, t[:, 0]), value(second, t[:, 1])
+    ends, (a, b) = value(t), slope(t)
     apart = np.hypot(*(ends[0] - ends[1]).T)
-    turn = np.abs(_turn(-slope(first, t[:, 0]), slope(second, t[:, 1])))
+    turn = np.abs(_turn(-a, b))
     shares = np.arange(1, BETWEEN + 1) / (BETWEEN + 1)
-    between = [
-        [value(side, u + share * (near - u)) for share in shares]
-        for side, u in ((first, t[:, 0]), (second, t[:, 1]))
-    ]
-    runs = np.stack([*between[0][::-1], 0.5 * (ends[0] + ends[1]), *between[1]], axis=1)
-    return runs, turn, 0.5 * (t[:, 1] - t[:, 0]), apart
+    between = [value(t + share * (near[:, None] - t)) for share in shares]
+    before, behind = [one[0] for one in between[::-1]], [one[1] for one in between]
+    runs = np.stack([*before, 0.5 * (ends[0] + ends[1]), *behind], axis=1)
+    return runs, turn, 0.5 * (t[1, :, 0] - t[0, :, 0]), apart

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.analysis import means_of, neighbours_to_average, noise_level
+from shapespline.engines.drawn.told_arcs import told_arcs
 from shapespline.validation import median
 from shapespline.values import Contour
 
@@ -109,7 +110,7 @@ class Observed:
     def _but(self, **changes: float) -> Observed:
         """The same points otherwise; what is known of them alone is known."""
         other = replace(self, **changes)  # type: ignore[arg-type]
-        for name in ("steps", "step", "box"):
+        for name in ("steps", "step", "box", "told_arcs"):
             if name in self.__dict__:
                 other.__dict__[name] = self.__dict__[name]
         return other
@@ -123,6 +124,11 @@ class Observed:
     def skip(self) -> float:
         """How near to a node points do not count."""
         return BLUNTED * self.pixel
+
+    @cached_property
+    def told_arcs(self) -> list[tuple[int, int]]:
+        """First and last point of each arc of a few pixels that a picture's outline tells."""
+        return told_arcs(self.points, self.pixel) if self.pixel and self.closed else []
 
     @cached_property
     def steps(self) -> FloatArray:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.engines.drawn.told_arcs import told_arcs
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -108,8 +107,8 @@ def segmented(seen: Observed, known: Segments | None = None, *, price: float = P
     """The segments of an outline; those of a closed one with nodes near a known row's (DRA-27)."""
     if not seen.closed:
         return _merged(_solved(seen, 0, price=price)[0], seen)
-    if told := told_arcs(seen):
-        return _between(seen, told, price)
+    if seen.told_arcs:
+        return _between(seen, seen.told_arcs, price)
     n = len(seen.points)
     if known is not None and len(known.found) > 1:
         start = known.first

@@ -11,18 +11,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from shapespline.engines.drawn.observed import Observed
+    from shapespline.typing import FloatArray
 
 # Points that share a circle with their neighbours to this part of its radius, so many in a row, of
 # a radius of no more pixels: a circle so exact is no chance (DRA-39).
 SAME_CIRCLE, LEAST_ALIKE, LARGEST = 1e-6, 5, 8.0
 
 
-def told_arcs(seen: Observed) -> list[tuple[int, int]]:
+def told_arcs(points: FloatArray, pixel: float) -> list[tuple[int, int]]:
     """First and last point of each arc of a closed outline, the last one maybe beyond its end."""
-    if not seen.pixel or not seen.closed or len(seen.points) < LEAST_ALIKE + 2:
+    n = len(points)
+    if n < LEAST_ALIKE + 2:
         return []
-    points, n = seen.points, len(seen.points)
     a, b = np.roll(points, 1, axis=0) - points, np.roll(points, -1, axis=0) - points
     double = 2.0 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
     u, v = (a**2).sum(axis=1), (b**2).sum(axis=1)
@@ -34,8 +34,8 @@ def told_arcs(seen: Observed) -> list[tuple[int, int]]:
     with np.errstate(invalid="ignore"):
         apart = np.hypot(*(np.roll(middle, -1, axis=0) - middle).T)
         # Between a point and the next one.
-        same = (apart <= SAME_CIRCLE * radius) & (radius <= LARGEST * seen.pixel)
-    if same.all():  # a whole circle
+        same = (apart <= SAME_CIRCLE * radius) & (radius <= LARGEST * pixel)
+    if same.all() or not same.any():  # a whole circle, or none
         return []
     first = int(np.flatnonzero(~same)[0]) + 1
     begins = np.flatnonzero(np.diff(np.roll(same, -first).astype(int), prepend=0) == 1)

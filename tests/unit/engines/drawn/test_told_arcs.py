@@ -6,7 +6,6 @@ import numpy as np
 
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.segments import ARC, LINE, segmented
-from shapespline.engines.drawn.told_arcs import told_arcs
 from shapespline.values import Contour
 
 RADIUS, SIDE, POINTS = 1.0, 20.0, 9
@@ -33,20 +32,20 @@ def seen(points, accuracy=0.02):
 def test_arcs_are_told_wherever_the_outline_begins():
     points = rounded_square()
     for shift in (0, 20, 24, 50):
-        found = told_arcs(seen(np.roll(points, shift, axis=0)))
+        found = seen(np.roll(points, shift, axis=0)).told_arcs
         begins = sorted((i - shift) % len(points) for i, _ in found)
         assert begins == [18, 45, 72, 99]
         assert {j - i for i, j in found} == {POINTS - 1}
 
 
 def test_what_is_off_by_less_than_is_seen_is_told_by_nobody():
-    assert told_arcs(seen(rounded_square(wobble=1e-4))) == []
+    assert seen(rounded_square(wobble=1e-4)).told_arcs == []
 
 
 def test_measured_points_and_whole_circles_are_looked_for_as_ever():
-    assert told_arcs(seen(rounded_square(), accuracy=None)) == []
+    assert seen(rounded_square(), accuracy=None).told_arcs == []
     angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
-    assert told_arcs(seen(3 * np.column_stack([np.cos(angle), np.sin(angle)]))) == []
+    assert seen(3 * np.column_stack([np.cos(angle), np.sin(angle)])).told_arcs == []
 
 
 def test_segments_are_the_arcs_and_the_lines_between():
