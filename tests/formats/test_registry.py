@@ -255,3 +255,8 @@ def test_a_format_of_a_missing_extra_is_refused_before_any_work(monkeypatch, tmp
             code, _, err = shapespline("fit", tmp_path / "none.csv", "-o", path)
             assert (code, err.count("\n")) == (1, 1)
             assert "pip install" in err
+
+
+def test_what_is_no_path_is_refused(blob):
+    with pytest.raises(InvalidInputError, match="path must be a path, got Contour; the path comes"):
+        write(blob, "x.svg")

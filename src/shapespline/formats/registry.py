@@ -10,6 +10,7 @@ met.
 
 from __future__ import annotations
 
+import os
 import warnings
 from dataclasses import dataclass
 from importlib import import_module
@@ -19,6 +20,7 @@ from typing import TYPE_CHECKING, cast
 from shapespline.errors import (
     ArcsAsCurvesWarning,
     FormatError,
+    InvalidInputError,
     ShapesplineError,
     UnknownFormatError,
     caller_level,
@@ -31,7 +33,6 @@ from shapespline.formats.sources import as_path
 from shapespline.geometry import Outlines, as_drawing, exact_drawing, in_unit
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Callable, Mapping
 
     from shapespline.formats.sources import File, Source
@@ -271,7 +272,7 @@ def write(
     MissingExtraError
         If the format needs a package that is not installed.
     InvalidInputError
-        If the format does not take an option.
+        If the path is none, or the format does not take an option.
     FormatError
         If the folder does not exist, the file cannot be written, or the format cannot hold the
         drawing.
@@ -281,6 +282,11 @@ def write(
     ArcsAsCurvesWarning
         If the drawing has arcs and the format has none.
     """
+    if not isinstance(path, str | os.PathLike):
+        raise InvalidInputError(
+            f"path must be a path, got {type(path).__name__}; the path comes first, then what is"
+            " written"
+        )
     path = Path(path)
     encode = _function(path, "encode")
     arguments = _checked(path, encode, options)
