@@ -123,7 +123,8 @@ def rounded(
                 break
         off, was_off = _mean(missed, along), _mean(*_missed(arcs, field, now, ink))
         good = (off <= told) & (off <= BETTER * was_off)
-        good &= off <= OF_CORNER * arcs.cut_off / np.sqrt(along.sum(axis=1))
+        seen = along.sum(axis=1)  # none of an arc beyond the rim
+        good &= (seen > 0) & (off <= OF_CORNER * arcs.cut_off / np.sqrt(np.maximum(seen, 1)))
         least[some] = arcs.half_length + BEFORE
         good &= (near >= least[some]) & (arcs.radii >= SMALLEST) & (arcs.radii <= LARGEST)
         reach[some] = np.where(good, arcs.half_length + DISTURBED, 0.0)

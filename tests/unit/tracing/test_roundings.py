@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from benchmarks.drawn.tables import rendered
 from tests.support.rendering import coverage, dark
 
 import shapespline as ss
@@ -71,3 +72,9 @@ def test_inner_and_outer_corners_of_a_frame_keep_their_radii():
 def test_sharp_corners_stay_sharp():
     (fit,) = fitted(box((24.3, 23.6), (15.2, 11.7), 0.0, 0.2))
     assert [piece.kind for piece in fit.pieces] == ["line"] * 4
+
+
+@pytest.mark.parametrize("name", ["keyhole", "home"])
+def test_arcs_beyond_the_rim_are_told_by_nothing(name):
+    # No pixel lies along them; their mean was none, which numpy warned of.
+    assert len(ss.trace(rendered(name, 128, "cut to the ink, JPEG 90")[1])) > 0
