@@ -63,8 +63,8 @@ def dotted(
         What the ink of each is worth, of that of the picture.
     """
     told = np.zeros(len(outlines), dtype=bool)
-    areas = np.array([signed_area(line) for line in level_lines])
-    sizes = np.array([np.ptp(line, axis=0).max() for line in level_lines])
+    areas = np.array([signed_area(line) if len(line) else 0.0 for line in level_lines])
+    sizes = np.array([np.ptp(line, axis=0).max() if len(line) else 0.0 for line in level_lines])
     small = np.flatnonzero((sizes <= LARGEST) & (np.abs(areas) >= LEAST_AREA))
     out = list(outlines)
     if len(small) == 0:

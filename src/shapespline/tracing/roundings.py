@@ -21,7 +21,7 @@ from shapespline.tracing.coverage import border_coverage
 from shapespline.tracing.sides import NONE, Corners, Ways, length_of, turns_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from shapespline.tracing.coverage import Covered
     from shapespline.tracing.field import Field
@@ -96,7 +96,11 @@ def rounded(
     clear = False
     left = wrong_pixels.about(ways.at(own, at))
     hopeless, least = np.zeros(len(at)), np.zeros(len(at))
-    told = TOLD + TOLD_NOISE * field.noise
+
+    def covered(corners: Corners) -> Covered:
+        """The drawing with these and what was found so far."""
+        return border_coverage(with_corners(outlines, found.joined(corners), closed), *field.shape)
+
     for nearest in (False, True):
         some, near, touching, shift = _sides_found(
             ways, turns, room, np.where(left, least, np.inf), nearest=nearest
@@ -109,20 +113,10 @@ def rounded(
             break
         some, near, touching = some[wrong], near[wrong], touching.chosen(wrong)
         shift, ink = shift[wrong], ink[wrong]
-        for _ in range(ROUNDS):
-            arcs = touching.arcs(shift)
-            corners = _corners(
-                whose[some], at[some], touching, arcs, arcs.points(arcs.chord_radii)[:, 1:-1]
-            )
-            tried = with_corners(outlines, found.joined(corners), closed)
-            missed, along = _missed(arcs, field, border_coverage(tried, *field.shape), ink)
-            step = touching.step_for(missed.sum(axis=1), arcs)
-            shift = shift + np.clip(step, -LONGEST_STEP, LONGEST_STEP)
-            lost = (np.abs(step) <= STILL) & (_mean(missed, along) > 2.0 * told)
-            if (lost | (touching.arcs(shift).radii < 0.5 * SMALLEST)).all():
-                break
+        place = whose[some], at[some]
+        arcs, missed, along = _approached(touching, shift, place, ink, field, covered)
         off, was_off = _mean(missed, along), _mean(*_missed(arcs, field, now, ink))
-        good = (off <= told) & (off <= BETTER * was_off)
+        good = (off <= _told(field)) & (off <= BETTER * was_off)
         seen = along.sum(axis=1)  # none of an arc beyond the rim
         good &= (seen > 0) & (off <= OF_CORNER * arcs.cut_off / np.sqrt(np.maximum(seen, 1)))
         least[some] = arcs.half_length + BEFORE
@@ -132,13 +126,12 @@ def rounded(
         overlap = beside & (reach + reach[after] > ahead)
         good &= ~(overlap | overlap[np.argsort(after)])[some]
         reach[some[~good]] = 0.0
-        corners = _corners(whose[some], at[some], touching, arcs, arcs.points(arcs.radii)[:, 1:-1])
+        corners = _corners(place, touching, arcs, arcs.points(arcs.radii)[:, 1:-1])
         is_end = good & (np.abs(arcs.turns) >= NEARLY_BACK)
         clear = clear or bool((good & ~is_end).any())
         if is_end.any() and not clear:
-            square = _corners(whose[some], at[some], touching, arcs, touching.square_ends(arcs))
-            tried = with_corners(outlines, found.joined(square.chosen(is_end)), closed)
-            missed, along = _missed(arcs, field, border_coverage(tried, *field.shape), ink)
+            square = _corners(place, touching, arcs, touching.square_ends(arcs))
+            missed, along = _missed(arcs, field, covered(square.chosen(is_end)), ink)
             clear = bool((_mean(missed, along) > np.maximum(off, AGREES))[is_end].any())
         found = found.joined(corners.chosen(good))
         left[some] = ~good
@@ -325,8 +318,34 @@ def _sides_found(
     return some, near[good], touching.chosen(good), number[good]
 
 
+def _told(field: Field) -> float:
+    """What pixels that agree may miss an arc by in the mean."""
+    return TOLD + TOLD_NOISE * field.noise
+
+
+def _approached(
+    touching: Touching,
+    shift: FloatArray,
+    place: tuple[IntArray, FloatArray],
+    ink: FloatArray,
+    field: Field,
+    covered: Callable[[Corners], Covered],
+) -> tuple[Arcs, FloatArray, BoolArray]:
+    """Arcs with the pixels' ink beside them, by Newton's method; what misses them, and where."""
+    for _ in range(ROUNDS):
+        arcs = touching.arcs(shift)
+        corners = _corners(place, touching, arcs, arcs.points(arcs.chord_radii)[:, 1:-1])
+        missed, along = _missed(arcs, field, covered(corners), ink)
+        step = touching.step_for(missed.sum(axis=1), arcs)
+        shift = shift + np.clip(step, -LONGEST_STEP, LONGEST_STEP)
+        lost = (np.abs(step) <= STILL) & (_mean(missed, along) > 2.0 * _told(field))
+        if (lost | (touching.arcs(shift).radii < 0.5 * SMALLEST)).all():
+            break
+    return arcs, missed, along
+
+
 def _corners(
-    own: IntArray, at: FloatArray, touching: Touching, arcs: Arcs, inner: FloatArray
+    place: tuple[IntArray, FloatArray], touching: Touching, arcs: Arcs, inner: FloatArray
 ) -> Corners:
     """Arcs instead of what lies between their sides, with other points between their ends."""
     points = arcs.points(arcs.radii)
@@ -336,7 +355,7 @@ def _corners(
     one = begins[:, None] + _BETWEEN * (points[:, 0] - begins)[:, None]
     two = points[:, -1:] + _BETWEEN * (ends - points[:, -1])[:, None]
     runs = np.concatenate([one, points[:, :1], inner, points[:, -1:], two], axis=1)
-    apex = points[:, ARC_POINTS // 2]
+    apex, (own, at) = points[:, ARC_POINTS // 2], place
     return Corners(own, apex, np.abs(arcs.turns), at - reach, at + reach, runs)
 
 
