@@ -15,6 +15,7 @@ import numpy as np
 from shapespline.geometry import signed_area
 from shapespline.tracing.corners import around
 from shapespline.tracing.coverage import border_coverage
+from shapespline.tracing.roundings import most_missed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -28,8 +29,6 @@ LARGEST, LEAST_AREA = 8.0, 1.2
 # Pixels on either side of a dot's middle that are looked at, and how far beyond its outline.
 REACH, BESIDE = 6, 1.1
 ROUNDS = 4
-# Pixels may miss the drawing by so much in the mean, and so many deviations of the noise (TRC-31).
-TOLD, TOLD_NOISE = 0.012, 1.5
 # A rectangle misses them by so much less than a circle (TRC-31).
 CLEARLY = 0.006
 # Points of a circle, and of each side of a rectangle.
@@ -84,10 +83,9 @@ def dotted(
     radii = np.sqrt(np.abs(areas[small]) / np.pi)
     circles, off_circles = _circles(middle.copy(), radii, pixels, drawn)
     boxes, off_boxes = _boxes(least, most, pixels, drawn)
-    most_off = TOLD + TOLD_NOISE * field.noise
     # A round dot on four pixels and a square one are the same: round dots are drawn more often.
     is_box = off_boxes + CLEARLY < off_circles
-    good = np.where(is_box, off_boxes, off_circles) <= most_off
+    good = np.where(is_box, off_boxes, off_circles) <= most_missed(field)
     told[small] = good
     for k, box, circle, boxed, fits, way in zip(
         small, boxes, circles, is_box, good, ways, strict=True

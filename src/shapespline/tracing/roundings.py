@@ -116,7 +116,7 @@ def rounded(
         place = whose[some], at[some]
         arcs, missed, along = _approached(touching, shift, place, ink, field, covered)
         off, was_off = _mean(missed, along), _mean(*_missed(arcs, field, now, ink))
-        good = (off <= _told(field)) & (off <= BETTER * was_off)
+        good = (off <= most_missed(field)) & (off <= BETTER * was_off)
         seen = along.sum(axis=1)  # none of an arc beyond the rim
         good &= (seen > 0) & (off <= OF_CORNER * arcs.cut_off / np.sqrt(np.maximum(seen, 1)))
         least[some] = arcs.half_length + BEFORE
@@ -318,7 +318,7 @@ def _sides_found(
     return some, near[good], touching.chosen(good), number[good]
 
 
-def _told(field: Field) -> float:
+def most_missed(field: Field) -> float:
     """What pixels that agree may miss an arc by in the mean."""
     return TOLD + TOLD_NOISE * field.noise
 
@@ -338,7 +338,7 @@ def _approached(
         missed, along = _missed(arcs, field, covered(corners), ink)
         step = touching.step_for(missed.sum(axis=1), arcs)
         shift = shift + np.clip(step, -LONGEST_STEP, LONGEST_STEP)
-        lost = (np.abs(step) <= STILL) & (_mean(missed, along) > 2.0 * _told(field))
+        lost = (np.abs(step) <= STILL) & (_mean(missed, along) > 2.0 * most_missed(field))
         if (lost | (touching.arcs(shift).radii < 0.5 * SMALLEST)).all():
             break
     return arcs, missed, along
