@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 # A free-form run goes on smoothly from an element if its data do, radians.
 SMOOTH_END = 0.2
 # A corner that is farther from its data than the first part of the tolerance is cut off, so that
-# the second part is left; data so many points about it are looked at (DRA-07).
-NEAR_PART, CUT_PART, NEIGHBOURS, CUTS = 0.97, 0.93, 8, 12
+# the second part is left, in steps of a part more; data so many points about it are looked at
+# (DRA-07, DRA-40).
+NEAR_PART, CUT_PART, CUT_STEP, NEIGHBOURS, CUTS = 0.97, 0.93, 0.1, 8, 30
 # A corner so many points beyond the node of an element that it lies on ends it (DRA-19).
 CORNER_REACH = 3
 # Data that lie on an element are no farther from it than so many deviations.
@@ -106,6 +107,16 @@ def first_on(model: Model, k: int) -> int:
     return i + int(np.flatnonzero(_lies_on(model, k, i, last))[0])
 
 
+def on_between(model: Model, k: int, tolerance: float) -> tuple[int, int]:
+    """First and last point on an element that only its ends miss by more than a tolerance."""
+    i, j, _ = model.row.found[k]
+    first, last = first_on(model, k), last_on(model, k)
+    off = np.abs(off_by(model, k, model.row.points[i : j + 1])) > tolerance
+    if off[first - i : last + 1 - i].any():
+        return i, j
+    return first if off[: first - i].any() else i, last if off[last - i :].any() else j
+
+
 def _lies_on(model: Model, k: int, first: int, last: int) -> BoolArray:
     """Which of some points are no farther from an element than noise; at least the nearest."""
     off = np.abs(off_by(model, k, model.row.points[first : last + 1]))
@@ -121,28 +132,34 @@ def off_by(model: Model, k: int, points: FloatArray) -> FloatArray:
     return np.hypot(*(points - model.x[o : o + 2]).T) - model.x[o + 2]
 
 
+def is_cut_off(model: Model, k: int, node: FloatArray, tolerance: float, turn: float) -> bool:
+    """Whether a corner of such a turn is so far from its data that it is cut off."""
+    return turn >= SMOOTH_END and away_from_data(model, k, node) > NEAR_PART * tolerance
+
+
 def cut_off(
     model: Model, k: int, m: int, node: FloatArray, tolerance: float
 ) -> tuple[FloatArray, FloatArray]:
     """Where element k ends and m begins: in their node, or beside it where data are blunted."""
-    far = away_from_data(model, k, node)
     turn = turn_at(model, k, m, node)
-    if far <= NEAR_PART * tolerance or turn < SMOOTH_END:
+    if not is_cut_off(model, k, node, tolerance, turn):
         return node, node
+    far = away_from_data(model, k, node)
     if not model.seen.skip:  # no picture blunted it: no point happened to lie there
         last, first = model.row.points[last_on(model, k)], model.row.points[first_on(model, m)]
         share = 1.0 - CUT_PART * tolerance / far
         ends = (node + share * (point - node) for point in (last, first))
         return onto(model, k, next(ends)), onto(model, m, next(ends))
-    back = (far - CUT_PART * tolerance) / float(np.sin(0.5 * turn))
+    steepness = float(np.sin(0.5 * turn))
+    back = (far - CUT_PART * tolerance) / steepness
     for _ in range(CUTS):
         before = onto(model, k, node - back * direction_at(model, k, node))
         after = onto(model, m, node + back * direction_at(model, m, node))
         far = max(away_from_data(model, k, p) for p in (before, after, 0.5 * (before + after)))
         if far <= NEAR_PART * tolerance:
-            break
-        back *= 1.25
-    return before, after
+            return before, after
+        back += CUT_STEP * tolerance / steepness  # of a cusp the cut goes too far, too
+    return node, node
 
 
 def away_from_data(model: Model, k: int, node: FloatArray) -> float:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
-from shapespline.engines.drawn.ends import nodes_of
+from shapespline.engines.drawn.ends import NEIGHBOURS, nodes_of, on_between
 from shapespline.engines.drawn.joints import turn_at
 from shapespline.engines.drawn.judgement import (
     HOPELESS,
@@ -26,6 +27,7 @@ from shapespline.engines.drawn.segments import (
     LINE_LINE_SMOOTH,
     PRICE,
     SMOOTH,
+    Segment,
     supported,
 )
 from shapespline.engines.drawn.sharing import shared_anew
@@ -87,7 +89,7 @@ def estimated(model: Model, row: Segments, tolerance: float) -> Estimated | None
                 return Estimated(model, found, told)
             if not told and not is_short(model):
                 return None
-        row, n_wrong = supported(_without(row, bad), seen.closed), n_wrong + len(bad)
+        row, n_wrong = supported(_without(model, bad, tolerance), seen.closed), n_wrong + len(bad)
     return None
 
 
@@ -120,7 +122,16 @@ def _joint_prices(model: Model) -> Iterator[float]:
             yield ARC_ARC_SMOOTH if smooth else ARC_ARC_CORNER
 
 
-def _without(row: Segments, bad: list[int]) -> Segments:
-    """The row with some segments free-form."""
-    found = tuple(s._replace(kind=FREE) if k in bad else s for k, s in enumerate(row.found))
-    return row._replace(found=found)
+def _without(model: Model, bad: list[int], tolerance: float) -> Segments:
+    """The row with some segments free-form, or only those of their ends that miss their points."""
+    found: list[Segment] = []
+    for k, segment in enumerate(model.row.found):
+        if k not in bad:
+            found.append(segment)
+            continue
+        first, last = on_between(model, k, tolerance)
+        if last - first < NEIGHBOURS or (first, last) == (segment.begin, segment.end):
+            first = last  # all of it
+        cuts = (segment.begin, FREE), (first, segment.kind), (last, FREE), (segment.end, FREE)
+        found += [Segment(i, j, kind) for (i, kind), (j, _) in pairwise(cuts) if i < j]
+    return model.row._replace(found=tuple(found))

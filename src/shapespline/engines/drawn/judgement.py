@@ -7,17 +7,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.engines.drawn.ends import (
+    NEIGHBOURS,
     away_from_data,
+    cut_off,
     data_length,
+    is_cut_off,
     length_along,
     length_between,
     nodes_of,
     off_by,
 )
-from shapespline.engines.drawn.joints import turn_at
-from shapespline.engines.drawn.segments import ARC, FREE
+from shapespline.engines.drawn.joints import direction_at, turn_at
+from shapespline.engines.drawn.segments import ARC, CORNER, FREE, LINE
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from shapespline.engines.drawn.model import Model
     from shapespline.engines.drawn.segments import Segments
     from shapespline.typing import FloatArray
@@ -31,6 +36,9 @@ BIT_MEAN, BIT_LARGEST = 1.3, 3.0
 # Of an outline that was drawn lines and arcs make up this part, and keep so many regularities for
 # each, tangency counted half where free-form runs make up no more than a tenth, too (DRA-08).
 LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH, LITTLE_FREE = 0.2, 0.65, 0.5, 0.1
+# A line from corner to corner was drawn, whatever it repeats, if no arc of a radius below so many
+# pixels lies as near to it (DRA-40).
+PLAIN = 900.0
 # So few elements and nothing else may be what was drawn though they keep no regularities (DRA-17).
 FEW_ELEMENTS = 12
 # Between its nodes an element has at least this part of the length of its data.
@@ -42,6 +50,9 @@ HOPELESS = 0.7
 # An arc that meets a neighbour at such an angle, radians, and cannot touch it is the beginning of a
 # free-form curve: nobody draws so blunt a corner (DRA-26).
 BLUNT = np.radians(1.0), np.radians(4.0)
+# An arc may miss the node that it ends in, where its twin leaves it and a chain of edges in a file
+# has a gap, by no more than that part of a tolerance, or of a pixel (DRA-40).
+GAP = 0.01
 # A node is no farther from its data than so many steps and deviations: lines that are nearly
 # parallel meet anywhere (DRA-06).
 NODE_STEPS, NODE_DEVIATIONS = 3.0, 20.0
@@ -68,27 +79,9 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
             bad.append((far, k))
     if bad:
         return [k for _, k in bad] if each_alone else [max(bad)[1]]
-    nodes = nodes_of(model)
     reach = NODE_STEPS * model.seen.step + NODE_DEVIATIONS * sigma
-    n = len(model.row.found)
-    for k, node in nodes.items():
-        m = (k + 1) % n
-        if k not in model.at or m not in model.at:
-            continue
-        turn = turn_at(model, k, m, node)
-        # Blunted corners lie farther from their points the sharper they are.
-        sharpness = float(np.cos(0.5 * turn)) ** 0.5
-        far = _to_points(model, k, m, node, NEAREST) / reach * sharpness
-        if far > 1.0:  # of the nearest points in the row, but others may be nearer
-            far = _to_points(model, k, m, node, len(model.row.points)) / reach * sharpness
-        if model.seen.pixel and turn < SHALLOW:
-            blunted = BLUNTING * float(np.tan(0.25 * turn)) * model.seen.pixel
-            far = max(far, away_from_data(model, k, node) / (CORNER_OFF * sigma + blunted))
-        shorter = min(k, m, key=lambda one: data_length(model, one))
-        if far > 1.0:
-            bad.append((far, shorter))
-        elif not each_alone and model.kind(shorter) == ARC and BLUNT[0] < turn < BLUNT[1]:
-            bad.append((1.0, shorter))
+    bad += _at_nodes(model, reach, tolerance, each_alone=each_alone)
+    nodes = nodes_of(model)
     for k in model.at:
         between = length_between(model, k, nodes[k - 1], nodes[k])
         along = length_along(model, k)
@@ -98,6 +91,73 @@ def misfitting(model: Model, tolerance: float, *, each_alone: bool = False) -> l
         if far > 1.0:
             bad.append((far, k))
     return [max(bad)[1]] if bad else []
+
+
+def _at_nodes(
+    model: Model, reach: float, tolerance: float, *, each_alone: bool
+) -> Iterator[tuple[float, int]]:
+    """Elements whose nodes are not where their data end, and by how much."""
+    seen, sigma, n = model.seen, model.seen.largest_deviation, len(model.row.found)
+    gap = GAP * (min(tolerance, seen.pixel) if seen.pixel else tolerance)
+    for k, node in nodes_of(model).items():
+        m = (k + 1) % n
+        if k not in model.at or m not in model.at or (k == n - 1 and not seen.closed):
+            continue
+        turn = turn_at(model, k, m, node)
+        # Blunted corners lie farther from their points the sharper they are.
+        sharpness = float(np.cos(0.5 * turn)) ** 0.5
+        far = _to_points(model, k, m, node, NEAREST) / reach * sharpness
+        if far > 1.0:  # of the nearest points in the row, but others may be nearer
+            far = _to_points(model, k, m, node, len(model.row.points)) / reach * sharpness
+        if seen.pixel and turn < SHALLOW:
+            blunted = BLUNTING * float(np.tan(0.25 * turn)) * seen.pixel
+            far = max(far, away_from_data(model, k, node) / (CORNER_OFF * sigma + blunted))
+        if not each_alone:  # a line and a circle may not meet
+            far = max(far, *(_off_node(model, one, node) / gap for one in (k, m)))
+        shorter = min(k, m, key=lambda one: data_length(model, one))
+        if far > 1.0:
+            yield far, shorter
+        elif not each_alone and model.kind(shorter) == ARC and BLUNT[0] < turn < BLUNT[1]:
+            yield 1.0, shorter
+        if each_alone or np.isinf(tolerance):
+            continue
+        if is_cut_off(model, k, node, tolerance, turn):
+            before, after = cut_off(model, k, m, node, tolerance)
+            if (before != after).any():
+                continue
+            yield away_from_data(model, k, node) / tolerance, shorter
+        for own, missed in zip((k, m), _missed(model, k, m, node), strict=True):
+            if missed > tolerance:
+                yield missed / tolerance, own
+
+
+def _off_node(model: Model, k: int, node: FloatArray) -> float:
+    return abs(float(off_by(model, k, node[None])[0]))
+
+
+def _missed(model: Model, k: int, m: int, node: FloatArray) -> tuple[float, float]:
+    """How far the last points of segment k, the first ones of m are from elements up to a node."""
+    before, after = model.row.found[k], model.row.found[m]
+    last = max((before.begin + before.end) // 2, before.end - NEIGHBOURS), before.end + 1
+    first = after.begin, min((after.begin + after.end) // 2, after.begin + NEIGHBOURS) + 1
+    farthest = []
+    for i, j in (last, first):
+        points = model.row.points[i:j]
+        off = np.hypot(*(points - node).T)
+        for one, way in ((k, 1.0), (m, -1.0)):
+            on = way * _before(model, one, node, points) >= 0.0
+            off[on] = np.minimum(off[on], np.abs(off_by(model, one, points[on])))
+        farthest.append(float(off.max()))
+    return farthest[0], farthest[1]
+
+
+def _before(model: Model, k: int, node: FloatArray, points: FloatArray) -> FloatArray:
+    """Positive for points that lie along an element before a node, negative behind it."""
+    if model.kind(k) == LINE:
+        return (node - points) @ direction_at(model, k, node)
+    centre = model.x[model.at[k] : model.at[k] + 2]
+    (x, y), (u, v) = (points - centre).T, node - centre
+    return (x * v - y * u) * model.ways[k]
 
 
 def _to_points(model: Model, k: int, m: int, node: FloatArray, n: int) -> float:
@@ -162,6 +222,7 @@ def repeated(model: Model, found: list[Regularity]) -> float:
     draw is level, parallel, equal or symmetric. Equal lengths often follow from that.
     """
     n, said = len(model.at), 0.0
+    speak: set[int] = set()
     by_touch = SAID_BY_TOUCH if _share(model.row) >= 1.0 - LITTLE_FREE else 0.0
     if len(model.row.found) == 1:  # one arc from end to end, as a whole circle
         return 1.0
@@ -170,4 +231,25 @@ def repeated(model: Model, found: list[Regularity]) -> float:
             said += n * (1.0 - 1.0 / one.order)
         elif one.name != "equal-length":
             said += 1.0 if one.name != "tangent" else by_touch
-    return said / n
+            if one.name != "tangent":
+                speak.update(one.pieces)
+    return (said + len(_plain_lines(model) - speak)) / n
+
+
+def _plain_lines(model: Model) -> set[int]:
+    """Lines of a picture from corner to corner, so long that they are no curves (DRA-40)."""
+    seen, found, n = model.seen, model.row.found, len(model.row.found)
+    if not seen.pixel or seen.one_bit:
+        return set()
+    nodes, ends = nodes_of(model), dict.fromkeys(model.at, 0)
+    for k in range(n if seen.closed else n - 1):
+        m = (k + 1) % n
+        if k in model.at and m in model.at and k != m and turn_at(model, k, m, nodes[k]) > CORNER:
+            ends[k] += 1
+            ends[m] += 1
+    least = (8.0 * PLAIN * seen.pixel * seen.largest_deviation) ** 0.5  # whose sagitta is that
+    return {
+        k
+        for k, n_ends in ends.items()
+        if n_ends == 2 and found[k].kind == LINE and data_length(model, k) >= least
+    }
