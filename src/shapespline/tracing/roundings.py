@@ -18,14 +18,14 @@ import numpy as np
 
 from shapespline.tracing.corners import around, with_corners
 from shapespline.tracing.coverage import border_coverage
-from shapespline.tracing.sides import NONE, Corners, Ways, length_of, turns_of
+from shapespline.tracing.sides import NONE, Corners, Turns, Ways, bends_of, length_of, turns_of
+from shapespline.tracing.touching import ARC_POINTS, NEARLY_BACK, Arcs, Touching
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from shapespline.tracing.coverage import Covered
     from shapespline.tracing.field import Field
-    from shapespline.tracing.sides import Turns
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # Radii of arcs that are told, pixels: of smaller ones a corner is left, larger ones are told by
@@ -38,8 +38,6 @@ NEARS, BEFORE = (1.7, 2.1, 2.5, 3.0, 3.6, 4.3, 5.2, 6.3, 7.5), 0.35
 SIDES, CLEAR, STRAIGHT = (4.0, 2.0, 1.0), 1.25, 0.015
 # Points of sides are disturbed so far beyond an arc: its pixels reach there.
 DISTURBED = 0.8
-# Half a turn and nearly so leads to the side on which the other one lies, whatever its angle.
-NEARLY_BACK = np.radians(150.0)
 # Rounds of Newton's method, and their longest step.
 ROUNDS, LONGEST_STEP = 3, 1.0
 # Shorter steps tell that an arc will not agree with its pixels, if all of them are.
@@ -49,6 +47,9 @@ STILL = 0.15
 # this part of what they miss it by now (TRC-29).
 ALONG, REACH = 1.1, 7
 TOLD, TOLD_NOISE, BETTER = 0.012, 1.5, 0.5
+# The many pixels along half a circle may miss it by more, as some renderers draw chords, but by no
+# much more than they miss the outline, which may turn anywhere (TRC-36).
+TOLD_END, BETTER_END = 0.025, 1.5
 # As much for each pixel of what lies between the arc and the corner in its place; pixels that miss
 # an outline by no more agree with it.
 OF_CORNER, AGREES = 0.12, 0.006
@@ -57,11 +58,9 @@ OF_CORNER, AGREES = 0.12, 0.006
 MISSED, MISSED_NOISE, ABOUT = 0.02, 3.0, 2
 # What misses them by more is not tried again from the same sides.
 HOPELESS = 0.05
-# Points of each side, of an arc, and between both.
-SAMPLES, ARC_POINTS, BETWEEN = 9, 9, 2
+# Points of each side, and between it and its arc.
+SAMPLES, BETWEEN = 9, 2
 _SHARES = np.linspace(0.0, 1.0, SAMPLES)
-_ARC = np.linspace(0.0, 1.0, ARC_POINTS)
-_FLAT = np.linspace(0.0, 1.0, ARC_POINTS - 2)
 _BETWEEN = (np.arange(BETWEEN) + 1.0)[:, None] / (BETWEEN + 1)
 
 
@@ -81,20 +80,43 @@ def rounded(
         What the ink of each is worth, of that of the picture.
     """
     now = border_coverage(outlines, *field.shape)
+    some = _rounded(outlines, drawn, field, inks, now, turns_of)
+    if some is not outlines:
+        now = border_coverage(some, *field.shape)
+    return list(_rounded(some, drawn, field, inks, now, _half_turns_of))
+
+
+def _half_turns_of(ways: Ways) -> Turns:
+    """All turns, those that do not lead back as none: the others may have several middles."""
+    own, at, turn = bends_of(ways)
+    return Turns(own, at, np.where(turn >= NEARLY_BACK, turn, 0.0))
+
+
+def _rounded(
+    outlines: Sequence[FloatArray],
+    drawn: Sequence[bool],
+    field: Field,
+    inks: FloatArray,
+    now: Covered,
+    turns_in: Callable[[Ways], Turns],
+) -> Sequence[FloatArray]:
+    """Outlines with the arcs in some of their turns; the same if there are none."""
     wrong_pixels = _wrong_pixels(now, field)
     used = _looked_at(outlines, drawn, wrong_pixels)
     if not used:
-        return list(outlines)
+        return outlines
     ways = Ways([outlines[k] for k in used], [True] * len(used))
-    turns = turns_of(ways)
-    own, at, _ = turns
+    turns = turns_in(ways)
+    own, at, turn = turns
+    if not turn.any():
+        return outlines
     closed, whose = [True] * len(outlines), np.array(used)[own]
     after, ahead = _next(turns, ways)
     room = np.minimum(ahead, ahead[np.argsort(after)])
     reach = np.zeros(len(at))
     found = NONE._replace(runs=np.empty((0, ARC_POINTS + 2 * BETWEEN, 2)))
     clear = False
-    left = wrong_pixels.about(ways.at(own, at))
+    left = wrong_pixels.about(ways.at(own, at)) & (turn > 0.0)
     hopeless, least = np.zeros(len(at)), np.zeros(len(at))
 
     def covered(corners: Corners) -> Covered:
@@ -116,7 +138,9 @@ def rounded(
         place = whose[some], at[some]
         arcs, missed, along = _approached(touching, shift, place, ink, field, covered)
         off, was_off = _mean(missed, along), _mean(*_missed(arcs, field, now, ink))
-        good = (off <= most_missed(field)) & (off <= BETTER * was_off)
+        is_end = np.abs(arcs.turns) >= NEARLY_BACK
+        good = off <= most_missed(field) + (TOLD_END - TOLD) * is_end
+        good &= off <= np.where(is_end, BETTER_END, BETTER) * was_off
         seen = along.sum(axis=1)  # none of an arc beyond the rim
         good &= (seen > 0) & (off <= OF_CORNER * arcs.cut_off / np.sqrt(np.maximum(seen, 1)))
         least[some] = arcs.half_length + BEFORE
@@ -127,7 +151,7 @@ def rounded(
         good &= ~(overlap | overlap[np.argsort(after)])[some]
         reach[some[~good]] = 0.0
         corners = _corners(place, touching, arcs, arcs.points(arcs.radii)[:, 1:-1])
-        is_end = good & (np.abs(arcs.turns) >= NEARLY_BACK)
+        is_end &= good
         clear = clear or bool((good & ~is_end).any())
         if is_end.any() and not clear:
             square = _corners(place, touching, arcs, touching.square_ends(arcs))
@@ -138,7 +162,7 @@ def rounded(
         # What is far off disturbs what lies beside; where nothing was found, nothing changes.
         hopeless[some] = np.where((off > HOPELESS) | ~good.any(), near, 0.0)
         least[some[off > HOPELESS]] = 0.0
-    return with_corners(outlines, found, closed) if clear else list(outlines)
+    return with_corners(outlines, found, closed) if clear else outlines
 
 
 class _WrongPixels(NamedTuple):
@@ -174,101 +198,6 @@ def _wrong_pixels(now: Covered, field: Field) -> _WrongPixels:
     beside = np.arange(-ABOUT, ABOUT + 1)
     keys = np.unique(keys[:, None, None] + width * beside[:, None] + beside)
     return _WrongPixels(keys, height, width)
-
-
-class Arcs(NamedTuple):
-    """Circular arcs: middles, radii, directions from the middle to the beginning, turns."""
-
-    centres: FloatArray
-    radii: FloatArray
-    firsts: FloatArray
-    turns: FloatArray
-
-    def points(self, radii: FloatArray) -> FloatArray:
-        """Points of each, of other radii, shape (k, ARC_POINTS, 2)."""
-        angle = self.firsts[:, None] + _ARC * self.turns[:, None]
-        ways = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        return self.centres[:, None] + radii[:, None, None] * ways
-
-    @property
-    def half_length(self) -> FloatArray:
-        """From the middle of each to its end."""
-        return 0.5 * self.radii * np.abs(self.turns)
-
-    @property
-    def cut_off(self) -> FloatArray:
-        """Square pixels between each and the corner that it is in place of; of an end no bound."""
-        half = np.minimum(0.5 * np.abs(self.turns), 0.5 * NEARLY_BACK)
-        return self.radii**2 * (np.tan(half) - half)
-
-    @property
-    def chord_radii(self) -> FloatArray:
-        """Radii with which the chords between the points enclose as much as the arcs do."""
-        step = np.abs(self.turns) / (ARC_POINTS - 1)
-        return self.radii * np.sqrt(step / np.sin(step))
-
-
-class Touching:
-    """Circles that touch two directed lines each, of which one number is left.
-
-    Middle and radius solve two equations: the distances from the lines are the radius. What is left
-    moves the middle by one along the way out, from between the sides to where they turn.
-    """
-
-    def __init__(self, sides: Sequence[tuple[FloatArray, FloatArray]]) -> None:
-        (p1, u1), (p2, u2) = self.sides = sides
-        turns = np.arctan2(_cross(u1, u2), (u1 * u2).sum(axis=1))
-        back, other_side = np.abs(turns) > NEARLY_BACK, np.sign(_cross(u1, p2 - p1))
-        self.ways = np.where(back, other_side, np.where(turns < 0, -1.0, 1.0))
-        wrong = back & (np.sign(turns) != self.ways)
-        self.turns = np.where(wrong, turns + 2 * np.pi * self.ways, turns)
-        self.inward = [
-            self.ways[:, None] * np.stack([-u[:, 1], u[:, 0]], axis=-1) for u in (u1, u2)
-        ]
-        # Equations in middle and radius, and the shortest solution.
-        one, two = (np.column_stack([n, -np.ones(len(n))]) for n in self.inward)
-        right = [(n * p).sum(axis=1) for n, p in zip(self.inward, (p1, p2), strict=True)]
-        dot = (one * two).sum(axis=1)
-        det = np.maximum(4.0 - dot**2, 1e-9)
-        first, second = ((2 * a - dot * b) / det for a, b in (right, right[::-1]))
-        self.one = first[:, None] * one + second[:, None] * two
-        out = u1 - u2
-        self.out = out / np.maximum(np.hypot(*out.T), 1e-9)[:, None]
-        free = np.cross(one, two)
-        size = (free[:, :2] * self.out).sum(axis=1)
-        self.free = free / np.where(np.abs(size) < 1e-9, 1e-9, size)[:, None]
-
-    def chosen(self, which: BoolArray | IntArray) -> Touching:
-        """Some of them."""
-        return Touching([(p[which], u[which]) for p, u in self.sides])
-
-    def through(self, apex: FloatArray) -> FloatArray:
-        """The number with which arcs are as far out as some points."""
-        gap = ((apex - self.one[:, :2]) * self.out).sum(axis=1) - self.one[:, 2]
-        return gap / np.maximum(1.0 + self.free[:, 2], 0.1)
-
-    def arcs(self, shift: FloatArray) -> Arcs:
-        """Those of some numbers."""
-        x = self.one + shift[:, None] * self.free
-        firsts = np.arctan2(-self.inward[0][:, 1], -self.inward[0][:, 0])
-        return Arcs(x[:, :2], np.maximum(x[:, 2], 0.0), firsts, self.turns)
-
-    def square_ends(self, arcs: Arcs) -> FloatArray:
-        """Points of square ends with as much ink, in place of those between the ends of arcs."""
-        points = arcs.points(arcs.radii)
-        ahead = 0.25 * np.pi * arcs.radii[:, None]
-        one = points[:, 0] + ahead * self.sides[0][1]
-        two = points[:, -1] - ahead * self.sides[1][1]
-        return np.asarray(one[:, None] + _FLAT[:, None] * (two - one)[:, None])
-
-    def step_for(self, ink: FloatArray, arcs: Arcs) -> FloatArray:
-        """By how much the number has to rise for so many square pixels of ink more."""
-        turn, shrinks = np.abs(self.turns), self.free[:, 2]
-        # What is swept by a step d is d radius w + d^2 shrinks w / 2.
-        w = 2.0 * np.sin(0.5 * turn) + shrinks * turn
-        swept, more = arcs.radii * w, self.ways * ink
-        root = np.sqrt(np.maximum(swept**2 + 2.0 * shrinks * w * more, 0.0))
-        return np.asarray(2.0 * more / np.maximum(swept + root, 0.05))
 
 
 def _next(turns: Turns, ways: Ways) -> tuple[IntArray, FloatArray]:
@@ -379,7 +308,3 @@ def _missed(
 def _mean(missed: FloatArray, along: BoolArray) -> FloatArray:
     """Root mean square over the pixels that count."""
     return np.sqrt((missed**2).sum(axis=1) / np.maximum(along.sum(axis=1), 1))
-
-
-def _cross(u: FloatArray, v: FloatArray) -> FloatArray:
-    return np.asarray(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])

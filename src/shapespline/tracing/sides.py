@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 # A turn of more, between chords that begin and end so many pixels before and behind.
 LEAST_TURN = np.radians(22.0)
 CHORD = (1.0, 3.4)
+# Steps along a way at which that is looked at, and between which the direction of a side is told.
+STEP, LONG_STEP = 0.25, 2.0
 # Candidates nearer than this are one; sides are looked at as far as this, and over no less.
 SAME_CORNER, SIDE, SHORTEST_SIDE = 1.6, 6.0, 0.9
 # Where a side of that length bends too much a shorter one is tried, if no other corner is near
@@ -205,18 +207,8 @@ def _room(
 
 def turns_of(ways: Ways, soft: Softness = SHARP) -> Turns:
     """Where ways turn most; corners of blurred ones take longer."""
-    step = 0.25
-    counts = np.ceil(ways.lengths / step).astype(np.int64)
-    own = np.repeat(np.arange(len(counts)), counts)
-    starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    at = step * (np.arange(len(own)) - starts[own])
-    near, far = np.array(CHORD) + soft.blur
-    before = ways.at(own, at - near) - ways.at(own, at - far)
-    after = ways.at(own, at + far) - ways.at(own, at + near)
-    turn = _turn(before, after)
-    # Nothing turns where a side leaves an open line.
-    turn[~ways.closed[own] & ((at < far) | (at > ways.lengths[own] - far))] = 0.0
-    reach = round((SAME_CORNER + soft.blur) / step)
+    own, starts, counts, turn = _turning(ways, soft)
+    reach = round((SAME_CORNER + soft.blur) / STEP)
     sharp = np.abs(turn)
     highest = sharp.copy()
     for shift in range(1, reach + 1):
@@ -243,7 +235,50 @@ def turns_of(ways: Ways, soft: Softness = SHARP) -> Turns:
         begin = end
     which, middle = np.array(of), np.array(middles)
     angle = np.abs(turn[starts[which] + np.round(middle).astype(int)])
-    return Turns(which, step * middle, angle)
+    return Turns(which, STEP * middle, angle)
+
+
+def bends_of(ways: Ways) -> Turns:
+    """Middles of stretches of closed ways that turn to one side, and by how much they do in all.
+
+    A round end of some pixels turns as much in several places of which its middle may be none.
+    """
+    _, starts, counts, turn = _turning(ways, SHARP)
+    sides = np.where(np.abs(turn) > LEAST_TURN, np.sign(turn), 0.0)
+    which, begins, ends = [], [], []
+    for k, (first, n) in enumerate(zip(starts.tolist(), counts.tolist(), strict=True)):
+        mine = sides[first : first + n]
+        cuts = np.flatnonzero(mine != np.roll(mine, 1))
+        if len(cuts) < 2:  # nothing turns, or all
+            continue
+        bends = mine[cuts] != 0.0
+        begin, end = cuts[bends], np.append(cuts[1:], cuts[0] + n)[bends]
+        if begin[-1] + end[-1] >= 2 * n:  # its middle lies behind the beginning
+            begin, end = (np.append(one[-1] - n, one[:-1]) for one in (begin, end))
+        begins.append(begin)
+        ends.append(end)
+        which += [k] * len(begin)
+    if not which:
+        return Turns(np.empty(0, dtype=np.int64), np.empty(0), np.empty(0))
+    of, first, last = np.array(which), STEP * np.concatenate(begins), STEP * np.concatenate(ends)
+    half = 0.5 * LONG_STEP
+    before, after = (ways.at(of, at + half) - ways.at(of, at - half) for at in (first, last))
+    return Turns(of, 0.5 * (first + last), np.abs(_turn(before, after)))
+
+
+def _turning(ways: Ways, soft: Softness) -> tuple[IntArray, IntArray, IntArray, FloatArray]:
+    """By how much ways turn at each step: the way, where its steps begin, how many, the angle."""
+    counts = np.ceil(ways.lengths / STEP).astype(np.int64)
+    own = np.repeat(np.arange(len(counts)), counts)
+    starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
+    at = STEP * (np.arange(len(own)) - starts[own])
+    near, far = np.array(CHORD) + soft.blur
+    before = ways.at(own, at - near) - ways.at(own, at - far)
+    after = ways.at(own, at + far) - ways.at(own, at + near)
+    turn = _turn(before, after)
+    # Nothing turns where a side leaves an open line.
+    turn[~ways.closed[own] & ((at < far) | (at > ways.lengths[own] - far))] = 0.0
+    return own, starts, counts, turn
 
 
 def _turn(before: FloatArray, after: FloatArray) -> FloatArray:

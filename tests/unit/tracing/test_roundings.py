@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from benchmarks.drawn.tables import rendered
-from tests.support.rendering import coverage, dark
+from tests.support.rendering import coverage, dark, polygon
 
 import shapespline as ss
 
@@ -48,7 +48,7 @@ def test_all_corners_of_a_rounded_rectangle_are_round(radius, place):
     assert np.ptp(radii) < 1e-9  # they are told to be equal
 
 
-@pytest.mark.parametrize("width", [2.0, 3.0, 4.0])
+@pytest.mark.parametrize("width", [2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0])
 @pytest.mark.parametrize("turn", [0.0, 0.5 * np.pi, 0.25 * np.pi, 0.4])
 def test_both_ends_of_a_stroke_are_half_circles(width, turn):
     (fit,) = fitted(box((24.2, 23.7), (14.0, 0.5 * width), 0.5 * width, turn))
@@ -78,3 +78,20 @@ def test_sharp_corners_stay_sharp():
 def test_arcs_beyond_the_rim_are_told_by_nothing(name):
     # No pixel lies along them; their mean was none, which numpy warned of.
     assert len(ss.trace(rendered(name, 128, "cut to the ink, JPEG 90")[1])) > 0
+
+
+@pytest.mark.parametrize("radius", [3.0, 3.5, 3.8, 4.0, 4.2])
+@pytest.mark.parametrize("place", [(24.0, 24.0), (24.3, 23.6), (24.5, 24.5), (24.8, 24.2)])
+def test_ends_of_few_chords_are_half_circles(radius, place):
+    # As Cairo draws them: corners on the circle, chords a tenth of a pixel inside, fifteen rows.
+    n = int(np.ceil(np.pi / (2 * np.arccos(1 - 0.1 / radius))))
+    angles = np.linspace(-0.5 * np.pi, 0.5 * np.pi, n + 1)
+    right = np.column_stack([14 - radius + radius * np.cos(angles), radius * np.sin(angles)])
+    inside = polygon(np.concatenate([right, -right]) + place)
+    rows, columns = (np.arange(48 * steps) + 0.5 for steps in (15, 64))
+    ink = inside(*np.meshgrid(columns / 64, 48 - rows / 15)).reshape(48, 15, 48, 64)
+    (fit,) = ss.fit_shape(ss.trace(dark(ink.mean(axis=(1, 3)))))
+    assert sorted(piece.kind for piece in fit.pieces) == ["arc", "arc", "line", "line"]
+    radii = [piece.arc.radius for piece in fit.pieces if piece.arc is not None]
+    np.testing.assert_allclose(radii, radius, atol=0.1)
+    assert np.ptp(radii) < 1e-9
