@@ -123,9 +123,8 @@ def _at_nodes(
             continue
         if is_cut_off(model, k, node, tolerance, turn):
             before, after = cut_off(model, k, m, node, tolerance)
-            if (before != after).any():
+            if (before != after).any():  # and follows its data so
                 continue
-            yield away_from_data(model, k, node) / tolerance, shorter
         for own, missed in zip((k, m), _missed(model, k, m, node), strict=True):
             if missed > tolerance:
                 yield missed / tolerance, own
