@@ -132,19 +132,14 @@ def off_by(model: Model, k: int, points: FloatArray) -> FloatArray:
     return np.hypot(*(points - model.x[o : o + 2]).T) - model.x[o + 2]
 
 
-def is_cut_off(model: Model, k: int, node: FloatArray, tolerance: float, turn: float) -> bool:
-    """Whether a corner of such a turn is so far from its data that it is cut off."""
-    return turn >= SMOOTH_END and away_from_data(model, k, node) > NEAR_PART * tolerance
-
-
 def cut_off(
     model: Model, k: int, m: int, node: FloatArray, tolerance: float
 ) -> tuple[FloatArray, FloatArray]:
     """Where element k ends and m begins: in their node, or beside it where data are blunted."""
-    turn = turn_at(model, k, m, node)
-    if not is_cut_off(model, k, node, tolerance, turn):
-        return node, node
     far = away_from_data(model, k, node)
+    turn = turn_at(model, k, m, node)
+    if far <= NEAR_PART * tolerance or turn < SMOOTH_END:
+        return node, node
     if not model.seen.skip:  # no picture blunted it: no point happened to lie there
         last, first = model.row.points[last_on(model, k)], model.row.points[first_on(model, m)]
         share = 1.0 - CUT_PART * tolerance / far

@@ -11,7 +11,6 @@ from shapespline.engines.drawn.ends import (
     away_from_data,
     cut_off,
     data_length,
-    is_cut_off,
     length_along,
     length_between,
     nodes_of,
@@ -121,10 +120,9 @@ def _at_nodes(
             yield 1.0, shorter
         if each_alone or np.isinf(tolerance):
             continue
-        if is_cut_off(model, k, node, tolerance, turn):
-            before, after = cut_off(model, k, m, node, tolerance)
-            if (before != after).any():  # and follows its data so
-                continue
+        before, after = cut_off(model, k, m, node, tolerance)
+        if (before != after).any():  # and follows its data so
+            continue
         for own, missed in zip((k, m), _missed(model, k, m, node), strict=True):
             if missed > tolerance:
                 yield missed / tolerance, own
