@@ -47,8 +47,8 @@ STILL = 0.15
 # this part of what they miss it by now (TRC-29).
 ALONG, REACH = 1.1, 7
 TOLD, TOLD_NOISE, BETTER = 0.012, 1.5, 0.5
-# The many pixels along half a circle may miss it by more, as some renderers draw chords, but by no
-# much more than they miss the outline, which may turn anywhere (TRC-36).
+# The many pixels along half a circle may miss it by more, as some renderers draw chords, and by so
+# many times what they miss the outline by, which may turn anywhere (TRC-36).
 TOLD_END, BETTER_END = 0.025, 1.5
 # As much for each pixel of what lies between the arc and the corner in its place; pixels that miss
 # an outline by no more agree with it.

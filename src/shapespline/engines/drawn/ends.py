@@ -22,6 +22,8 @@ SMOOTH_END = 0.2
 NEAR_PART, CUT_PART, CUT_STEP, NEIGHBOURS, CUTS = 0.97, 0.93, 0.1, 8, 30
 # A corner so many points beyond the node of an element that it lies on ends it (DRA-19).
 CORNER_REACH = 3
+# An arc that misses a node by more of the outline's extent does so not by rounding.
+ROUNDING = 1e-9
 # Data that lie on an element are no farther from it than so many deviations.
 ON = 3.0
 
@@ -130,6 +132,13 @@ def off_by(model: Model, k: int, points: FloatArray) -> FloatArray:
         tx, ty = unit_of(float(model.x[o]))
         return tx * points[:, 1] - ty * points[:, 0] - model.x[o + 1]
     return np.hypot(*(points - model.x[o : o + 2]).T) - model.x[o + 2]
+
+
+def misses(model: Model, k: int, *nodes: FloatArray) -> bool:
+    """Whether an arc misses nodes that it ends in: its neighbours and its circle may not meet."""
+    if model.kind(k) == LINE:
+        return False
+    return float(np.abs(off_by(model, k, np.stack(nodes))).max()) > ROUNDING * model.extent
 
 
 def cut_off(

@@ -13,6 +13,7 @@ from shapespline.engines.drawn.ends import (
     cut_off,
     first_on,
     last_on,
+    misses,
     nodes_of,
     sweep_of,
 )
@@ -66,6 +67,8 @@ LEAST_SAVED, SAVED_PART = 6.0, 0.1
 CHORDS = 1.33
 # Rows with more segments are found at that part of their price (DRA-38).
 FINER = 0.5
+# What is kept by arcs, too, that are led through their nodes: they are moved alike (DRA-40).
+WHOLE = ("mirror", "rotation")
 # Data within so many steps of a node tell its direction.
 DIRECTION_STEPS = 4
 
@@ -284,10 +287,12 @@ def _drawn(model: Model, found: list[Regularity], tolerance: float, told: bool) 
         parts.append(_free_run(model, k, last, nodes))
         k = last + 1
     cut = {k for k in model.at if (begins[k] != nodes[k - 1]).any() or (ends[k] != nodes[k]).any()}
+    moved = {k for k in model.at if misses(model, k, begins[k], ends[k])}
     kept = tuple(
         one._replace(pieces=tuple(place[s] for s in one.pieces))
         for one in found
-        if one.name != "equal-length" or cut.isdisjoint(one.pieces)
+        if (one.name != "equal-length" or cut.isdisjoint(one.pieces))
+        and (one.name in WHOLE or moved.isdisjoint(one.pieces))
     )
     return merged_arcs(Drawn(tuple(parts), kept, told, model.n_free), closed=model.seen.closed)
 
@@ -298,6 +303,8 @@ def _element(model: Model, k: int, begin: FloatArray, end: FloatArray) -> DrawnL
     o = model.at[k]
     centre, radius = model.x[o : o + 2], float(model.x[o + 2])
     first, sweep = sweep_of(model, k, begin, end)
+    if misses(model, k, begin, end):
+        return DrawnArc(Arc.through(begin, end, sweep), begin, end)
     return DrawnArc(Arc((float(centre[0]), float(centre[1])), radius, first, sweep), begin, end)
 
 

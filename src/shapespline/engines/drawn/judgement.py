@@ -49,9 +49,9 @@ HOPELESS = 0.7
 # An arc that meets a neighbour at such an angle, radians, and cannot touch it is the beginning of a
 # free-form curve: nobody draws so blunt a corner (DRA-26).
 BLUNT = np.radians(1.0), np.radians(4.0)
-# An arc may miss the node that it ends in, where its twin leaves it and a chain of edges in a file
-# has a gap, by no more than that part of a tolerance, or of a pixel (DRA-40).
-GAP = 0.01
+# An arc misses the node that it ends in, and is then led through it, by no more than that part of a
+# tolerance, without one of a pixel (DRA-40).
+GAP, GAP_OF_PIXEL = 0.25, 0.01
 # A node is no farther from its data than so many steps and deviations: lines that are nearly
 # parallel meet anywhere (DRA-06).
 NODE_STEPS, NODE_DEVIATIONS = 3.0, 20.0
@@ -97,7 +97,7 @@ def _at_nodes(
 ) -> Iterator[tuple[float, int]]:
     """Elements whose nodes are not where their data end, and by how much."""
     seen, sigma, n = model.seen, model.seen.largest_deviation, len(model.row.found)
-    gap = GAP * (min(tolerance, seen.pixel) if seen.pixel else tolerance)
+    gap = GAP_OF_PIXEL * seen.pixel if seen.pixel and np.isinf(tolerance) else GAP * tolerance
     for k, node in nodes_of(model).items():
         m = (k + 1) % n
         if k not in model.at or m not in model.at or (k == n - 1 and not seen.closed):
