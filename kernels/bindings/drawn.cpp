@@ -1,6 +1,8 @@
 // Lines, arcs and free-form runs of an outline.
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <tuple>
@@ -10,14 +12,56 @@
 #include "arrays.hpp"
 #include "shapespline/drawn/conditioning.hpp"
 #include "shapespline/drawn/elements.hpp"
-#include "shapespline/drawn/elimination.hpp"
+#include "shapespline/drawn/equations.hpp"
+#include "shapespline/drawn/estimate.hpp"
 #include "shapespline/drawn/segmentation.hpp"
 
 using namespace nb::literals;
 namespace drawn = ss::drawn;
 using Rows = Array<const double, nb::ndim<2>>;
 
+using Places = std::vector<std::int64_t>;
+
+// What elements may be asked to meet.
+void bind_equations(nb::module_ &m) {
+    nb::class_<drawn::Difference>(m, "Difference")
+        .def(nb::init<Places, Places, double, double>(), "a"_a, "b"_a, "turn"_a = 0.0,
+             "sign"_a = 1.0);
+    nb::class_<drawn::LineTouches>(m, "LineTouches")
+        .def(nb::init<std::int64_t, std::int64_t, double>(), "a"_a, "b"_a, "way"_a);
+    nb::class_<drawn::CirclesTouch>(m, "CirclesTouch")
+        .def(nb::init<std::int64_t, std::int64_t, bool>(), "a"_a, "b"_a, "alike"_a);
+    nb::class_<drawn::PassesThrough>(m, "PassesThrough")
+        .def(
+            "__init__",
+            [](drawn::PassesThrough *made, std::int64_t a, bool is_line, double x, double y) {
+                new (made) drawn::PassesThrough{a, is_line, {x, y}};
+            },
+            "a"_a, "is_line"_a, "x"_a, "y"_a);
+    nb::class_<drawn::Images>(m, "Images")
+        .def(nb::init<Places, Places, std::int64_t, bool, std::optional<double>>(), "a"_a, "b"_a,
+             "at"_a, "is_line"_a, "angle"_a = nb::none());
+    nb::class_<drawn::End>(m, "End").def(nb::init<std::int64_t, bool, double>(), "at"_a,
+                                         "is_line"_a, "side"_a = 0.0);
+    nb::class_<drawn::Edge>(m, "Edge")
+        .def(nb::init<std::int64_t, drawn::End, drawn::End, double>(), "at"_a, "begin"_a, "end"_a,
+             "touches"_a)
+        .def(
+            "length",
+            [](const drawn::Edge &self, In1 x) { return self.length(numbers(x)); },
+            "x"_a.noconvert());
+    nb::class_<drawn::EqualLengths>(m, "EqualLengths")
+        .def(nb::init<drawn::Edge, drawn::Edge>(), "a"_a, "b"_a);
+    m.def(
+        "equation_values",
+        [](const std::vector<drawn::Equation> &equations, In1 x) {
+            return drawn::linearised(equations, numbers(x)).values();
+        },
+        "equations"_a, "x"_a.noconvert());
+}
+
 void bind_drawn(nb::module_ &m) {
+    bind_equations(m);
     nb::class_<drawn::JointPrices>(m, "JointPrices")
         .def(nb::init<double, double, double, double, double, double, double, double>(),
              nb::kw_only(), "line_line_smooth"_a, "line_arc_smooth"_a, "arc_arc_smooth"_a,
@@ -71,15 +115,14 @@ void bind_drawn(nb::module_ &m) {
             "is_line"_a, "at"_a, "begins"_a, "points"_a.noconvert(), "weights"_a.noconvert(),
             "deviation"_a)
         .def(
-            "normal",
-            [](const drawn::Elements &self, In1 x, Out2 matrix, Out1 gradient) {
+            "misfits",
+            [](const drawn::Elements &self, In1 x) {
                 std::vector<std::tuple<double, double, double>> misfits;
-                for (const drawn::Misfit &one : self.normal(
-                         numbers(x), {matrix.data(), matrix.size()}, numbers(gradient)))
+                for (const drawn::Misfit &one : self.misfits(numbers(x)))
                     misfits.emplace_back(one.chi_sq, one.weight, one.largest);
                 return misfits;
             },
-            "x"_a.noconvert(), "matrix"_a.noconvert(), "gradient"_a.noconvert())
+            "x"_a.noconvert())
         .def(
             "covariance",
             [](const drawn::Elements &self, In1 x, Rows floors, Out2 covariance, Out2 precision) {
@@ -94,28 +137,33 @@ void bind_drawn(nb::module_ &m) {
              "largest"_a, "largest_each"_a, "span"_a, "least_surprise"_a, "implied"_a, "met"_a);
     m.def(
         "take_equation",
-        [](Out1 x, Out2 covariance, const std::vector<std::int64_t> &index, In1 values, Rows rows,
+        [](Out1 x, Out2 covariance, const drawn::Equation &equation,
            const drawn::EquationLimits &limits) {
-            return drawn::take_equation(numbers(x), {covariance.data(), covariance.size()}, index,
-                                        numbers(values), {rows.data(), rows.size()}, limits);
+            return drawn::take_equation(numbers(x), {covariance.data(), covariance.size()},
+                                        equation, limits);
         },
-        "x"_a.noconvert(), "covariance"_a.noconvert(), "index"_a, "values"_a.noconvert(),
-        "rows"_a.noconvert(), "limits"_a);
+        "x"_a.noconvert(), "covariance"_a.noconvert(), "equation"_a, "limits"_a);
+    nb::class_<drawn::EstimateLimits>(m, "EstimateLimits")
+        .def(nb::init<int, double, double, double, double>(), nb::kw_only(), "rounds"_a,
+             "extent"_a, "least_step"_a, "longest_step"_a, "implied"_a);
+    m.def(
+        "estimate",
+        [](const drawn::Elements &elements, const std::vector<drawn::Equation> &equations, Out1 x,
+           const drawn::EstimateLimits &limits) {
+            drawn::estimate(elements, equations, numbers(x), limits);
+        },
+        "elements"_a, "equations"_a, "x"_a.noconvert(), "limits"_a);
     nb::class_<drawn::MeetingSteps>(m, "MeetingSteps")
         .def(
             "__init__",
-            [](drawn::MeetingSteps *made, In1 values, Rows rows, In1 units, double implied) {
-                new (made) drawn::MeetingSteps(numbers(values), {rows.data(), rows.size()},
-                                               numbers(units), implied);
+            [](drawn::MeetingSteps *made, const drawn::Elements &elements,
+               const std::vector<drawn::Equation> &equations, In1 x, double extent,
+               double implied) {
+                new (made) drawn::MeetingSteps(
+                    drawn::meeting_steps(elements, equations, numbers(x), extent, implied));
             },
-            "values"_a.noconvert(), "rows"_a.noconvert(), "units"_a.noconvert(), "implied"_a)
+            "elements"_a, "equations"_a, "x"_a.noconvert(), "extent"_a, "implied"_a)
         .def("n_free", &drawn::MeetingSteps::n_free)
-        .def(
-            "best",
-            [](const drawn::MeetingSteps &self, Rows matrix, In1 gradient, Out1 step) {
-                self.best({matrix.data(), matrix.size()}, numbers(gradient), numbers(step));
-            },
-            "matrix"_a.noconvert(), "gradient"_a.noconvert(), "step"_a.noconvert())
         .def(
             "covariance",
             [](const drawn::MeetingSteps &self, Rows precision, Out2 covariance) {

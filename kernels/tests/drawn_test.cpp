@@ -4,7 +4,8 @@
 #include "check.hpp"
 #include "shapespline/drawn/conditioning.hpp"
 #include "shapespline/drawn/elements.hpp"
-#include "shapespline/drawn/elimination.hpp"
+#include "shapespline/drawn/equations.hpp"
+#include "shapespline/drawn/estimate.hpp"
 #include "shapespline/drawn/segmentation.hpp"
 
 using namespace shapespline;
@@ -173,14 +174,13 @@ TEST(normal_equations_are_the_derivatives_of_half_of_chi_squared) {
     const std::vector<double> x{0.31, -0.18, 0.57, 0.3, -0.1};
     const auto half = [&](std::vector<double> at, std::size_t i, double step) {
         at[i] += step;
-        std::vector<double> matrix(25), gradient(5);
         double sum = 0.0;
-        for (const Misfit &one : both.normal(at, matrix, gradient)) sum += 0.5 * one.chi_sq;
+        for (const Misfit &one : both.misfits(at)) sum += 0.5 * one.chi_sq;
         return sum;
     };
     std::vector<double> matrix(25), gradient(5);
-    const auto misfits = both.normal(x, matrix, gradient);
-    CHECK_NEAR(misfits[1].weight, 9.25, 1e-15);
+    both.normal(x, matrix, gradient);
+    CHECK_NEAR(both.misfits(x)[1].weight, 9.25, 1e-15);
     const double h = 1e-5;  // errors: h^2 times third derivatives of order 100, rounding over h
     for (std::size_t i = 0; i < 5; ++i)
         CHECK_NEAR(gradient[i], (half(x, i, h) - half(x, i, -h)) / (2 * h), 1e-7);
@@ -189,16 +189,50 @@ TEST(normal_equations_are_the_derivatives_of_half_of_chi_squared) {
 TEST(an_equation_that_holds_conditions_the_estimate) {
     // Two unknowns, correlated, said to be equal: the mean that their covariance weighs.
     std::vector<double> x{1.0, 1.5}, covariance{1.0, 0.2, 0.2, 0.5};
-    const std::vector<std::int64_t> index{0, 1};
-    const std::vector<double> values{-0.5, -0.5}, rows{1.0, -1.0, 1.0, -1.0};
     const EquationLimits limits{9.0, 0.75, 0.0, 1.0, 1e-10, 1e-12};
-    CHECK(take_equation(x, covariance, index, values, rows, limits));  // the second row follows
+    // The second row follows.
+    CHECK(take_equation(x, covariance, Difference{{0, 0}, {1, 1}, 0.0, 1.0}, limits));
     // By hand: gain (0.8, -0.3), variance 1.1.
     CHECK_NEAR(x[0], 1.0 + 0.8 * 0.5 / 1.1, 1e-15);
     CHECK_NEAR(x[1], 1.5 - 0.3 * 0.5 / 1.1, 1e-15);
     for (const double c : covariance) CHECK_NEAR(c, 1.0 - 0.64 / 1.1, 1e-15);
     // They are equal now; that they differ by one is refused, and nothing changes.
     const auto before = x;
-    CHECK(!take_equation(x, covariance, index, std::vector{-1.0}, std::vector{1.0, -1.0}, limits));
+    CHECK(!take_equation(x, covariance, Difference{{0}, {1}, 1.0, 1.0}, limits));
     CHECK(x == before);
+}
+
+TEST(slopes_of_equations_are_difference_quotients) {
+    std::vector<double> x;
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> number(0.5, 1.5);
+    for (int i = 0; i < 14; ++i) x.push_back(number(random));
+    x[5] = 4.0;  // the radius of a circle around another
+    const std::vector<Equation> all{
+        Difference{{0, 3}, {9, 6}, 0.3, -1.0},
+        Difference{{4}, {}, 0.3, 1.0},
+        LineTouches{0, 3, -1.0},
+        CirclesTouch{3, 6, true},
+        CirclesTouch{6, 3, true},
+        CirclesTouch{3, 6, false},
+        PassesThrough{0, true, {0.3, 2.0}},
+        PassesThrough{3, false, {0.3, 2.0}},
+        Images{{0, 9}, {9, 0}, 12, true, 0.7},
+        Images{{0}, {9}, 12, true, std::nullopt},
+        Images{{3}, {6}, 12, false, 0.7},
+        Images{{3, 6}, {6, 6}, 12, false, std::nullopt},
+        EqualLengths{{0, {9, true, 0.0}, {3, false, 1.0}, 1e-4},
+                     {9, {3, false, -1.0}, {3, false, 0.0}, 1e-4}},
+    };
+    const Linearised found = linearised(all, x);
+    CHECK(found.values().size() == 25);
+    const double h = 1e-6;  // errors: h^2 times third derivatives of order 100, rounding over h
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        std::vector<double> there = x, here = x;
+        there[i] += h;
+        here[i] -= h;
+        const auto more = linearised(all, there).values(), less = linearised(all, here).values();
+        for (std::size_t k = 0; k < more.size(); ++k)
+            CHECK_NEAR(found.rows()[k * x.size() + i], (more[k] - less[k]) / (2 * h), 2e-8);
+    }
 }

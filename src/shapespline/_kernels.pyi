@@ -2,6 +2,7 @@
 # C-contiguous float64 (first: int64) of the shapes said here, outputs are written in place.
 # nc = len(knots) - degree - 1 unrolled coefficients, m distinct control points, n data points.
 from collections.abc import Callable, Sequence
+from typing import TypeAlias
 
 from shapespline.typing import FloatArray, IntArray
 
@@ -382,11 +383,9 @@ class Elements:
         weights: FloatArray,  # (n,)
         deviation: float,
     ) -> None: ...
-    def normal(
+    def misfits(
         self,
         x: FloatArray,  # (n,)
-        matrix: FloatArray,  # (n, n), added to
-        gradient: FloatArray,  # (n,), added to
     ) -> list[tuple[float, float, float]]: ...  # chi squared, sum of weights, largest distance
     def covariance(
         self,
@@ -408,30 +407,86 @@ class EquationLimits:
         met: float,
     ) -> None: ...
 
+class Difference:
+    def __init__(
+        self, a: Sequence[int], b: Sequence[int], turn: float = 0.0, sign: float = 1.0
+    ) -> None: ...
+
+class LineTouches:
+    def __init__(self, a: int, b: int, way: float) -> None: ...
+
+class CirclesTouch:
+    def __init__(self, a: int, b: int, alike: bool) -> None: ...
+
+class PassesThrough:
+    def __init__(self, a: int, is_line: bool, x: float, y: float) -> None: ...
+
+class Images:
+    def __init__(
+        self,
+        a: Sequence[int],
+        b: Sequence[int],
+        at: int,
+        is_line: bool,
+        angle: float | None = None,
+    ) -> None: ...
+
+class End:
+    def __init__(self, at: int, is_line: bool, side: float = 0.0) -> None: ...
+
+class Edge:
+    def __init__(self, at: int, begin: End, end: End, touches: float) -> None: ...
+    def length(
+        self,
+        x: FloatArray,  # (n,)
+    ) -> float: ...
+
+class EqualLengths:
+    def __init__(self, a: Edge, b: Edge) -> None: ...
+
+Equation: TypeAlias = (
+    Difference | LineTouches | CirclesTouch | PassesThrough | Images | EqualLengths
+)
+
+def equation_values(
+    equations: Sequence[Equation],
+    x: FloatArray,  # (n,)
+) -> list[float]: ...
 def take_equation(
     x: FloatArray,  # (n,), changed if the equation holds
     covariance: FloatArray,  # (n, n), changed if it does
-    index: Sequence[int],  # unknowns that it joins
-    values: FloatArray,  # (m,)
-    rows: FloatArray,  # (m, len(index))
+    equation: Equation,
     limits: EquationLimits,
 ) -> bool: ...
+
+class EstimateLimits:
+    def __init__(
+        self,
+        *,
+        rounds: int,
+        extent: float,  # of the outline
+        least_step: float,  # in parts of the extent
+        longest_step: float,  # in parts of the extent, or of the largest unknown
+        implied: float,  # part of its entries that an equation of its own leaves
+    ) -> None: ...
+
+def estimate(
+    elements: Elements,
+    equations: Sequence[Equation],
+    x: FloatArray,  # (n,), changed
+    limits: EstimateLimits,
+) -> None: ...
 
 class MeetingSteps:
     def __init__(
         self,
-        values: FloatArray,  # (m,)
-        rows: FloatArray,  # (m, n)
-        units: FloatArray,  # (n,)
+        elements: Elements,
+        equations: Sequence[Equation],
+        x: FloatArray,  # (n,)
+        extent: float,
         implied: float,
     ) -> None: ...
     def n_free(self) -> int: ...
-    def best(
-        self,
-        matrix: FloatArray,  # (n, n)
-        gradient: FloatArray,  # (n,)
-        step: FloatArray,  # (n,), written
-    ) -> None: ...
     def covariance(
         self,
         precision: FloatArray,  # (n, n)

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <numbers>
 #include <span>
 #include <vector>
+
+#include "shapespline/drawn/equations.hpp"
 
 namespace shapespline::drawn {
 
@@ -21,14 +22,21 @@ struct EquationLimits {
     double met;             // how far a row that follows may be off
 };
 
-// Rows `values` + `rows` (x - now) = 0 over the unknowns `index`. Told: whether they hold; then `x`
-// (n) and `covariance` (n by n) are conditioned by them.
+// Whether an equation holds at x (n); then x and `covariance` (n by n) are conditioned by it.
 inline bool take_equation(std::span<double> x, std::span<double> covariance,
-                          std::span<const std::int64_t> index, std::span<const double> values,
-                          std::span<const double> rows, const EquationLimits &limits) {
-    const std::size_t n = x.size(), width = index.size();
+                          const Equation &equation, const EquationLimits &limits) {
+    const Linearised now = linearised({&equation, 1}, x);
+    const std::span<const double> values = now.values(), rows = now.rows();
+    const std::size_t n = x.size();
+    std::vector<std::size_t> index;  // the unknowns that it joins
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (rows[k * n + i] != 0.0) {
+                index.push_back(i);
+                break;
+            }
     double widest = 0.0;
-    for (const std::int64_t i : index) widest = std::max(widest, covariance[i * n + i]);
+    for (const std::size_t i : index) widest = std::max(widest, covariance[i * n + i]);
     const double none = limits.implied * widest + 1e-300;
     struct Told {
         std::vector<double> gain;  // the covariance of all unknowns with the row
@@ -37,16 +45,15 @@ inline bool take_equation(std::span<double> x, std::span<double> covariance,
     std::vector<Told> told;
     double statistic = 0.0, surprise = 0.0;
     for (std::size_t k = 0; k < values.size(); ++k) {
-        const auto row = rows.subspan(k * width, width);
+        const auto row = rows.subspan(k * n, n);
         const auto along = [&](const std::vector<double> &gain) {
             double sum = 0.0;
-            for (std::size_t a = 0; a < width; ++a) sum += row[a] * gain[index[a]];
+            for (const std::size_t a : index) sum += row[a] * gain[a];
             return sum;
         };
         Told one{std::vector<double>(n), values[k], 0.0};
-        for (std::size_t a = 0; a < width; ++a)
-            for (std::size_t i = 0; i < n; ++i)
-                one.gain[i] += row[a] * covariance[index[a] * n + i];
+        for (const std::size_t a : index)
+            for (std::size_t i = 0; i < n; ++i) one.gain[i] += row[a] * covariance[a * n + i];
         for (const Told &before : told) {
             const double share = along(before.gain) / before.variance;
             one.off -= share * before.off;

@@ -155,10 +155,23 @@ class Elements {
 
     std::size_t size() const { return at_.size(); }
 
+    // What n unknowns count in: directions in arcs of the extent, as the others are lengths.
+    std::vector<double> units(std::size_t n, double extent) const {
+        std::vector<double> found(n, 1.0);
+        for (std::size_t k = 0; k < size(); ++k)
+            if (is_line_[k]) found[at_[k]] = 1.0 / extent;
+        return found;
+    }
+
+    std::vector<Misfit> misfits(std::span<const double> x) const {
+        std::vector<Misfit> found;
+        for (std::size_t k = 0; k < size(); ++k) found.push_back(misfit(across(k, x)));
+        return found;
+    }
+
     // Half the Hessian and the gradient of chi squared, added to n by n and n numbers.
-    std::vector<Misfit> normal(std::span<const double> x, std::span<double> matrix,
-                               std::span<double> gradient) const {
-        std::vector<Misfit> misfits;
+    void normal(std::span<const double> x, std::span<double> matrix,
+                std::span<double> gradient) const {
         for (std::size_t k = 0; k < size(); ++k) {
             const Across off = across(k, x);
             const std::size_t at = at_[k], n = unknowns(k);
@@ -167,9 +180,7 @@ class Elements {
                 for (std::size_t j = 0; j < n; ++j)
                     matrix[(at + i) * x.size() + at + j] += precision_ * off.hessian[i][j];
             }
-            misfits.push_back({precision_ * off.sum_sq, off.weight, off.largest});
         }
-        return misfits;
     }
 
     // Blocks of the covariance of the estimate without equations and of its inverse, written into
@@ -205,6 +216,10 @@ class Elements {
     }
 
   private:
+    Misfit misfit(const Across &off) const {
+        return {precision_ * off.sum_sq, off.weight, off.largest};
+    }
+
     std::size_t unknowns(std::size_t k) const { return is_line_[k] ? 2 : 3; }
 
     Across across(std::size_t k, std::span<const double> x) const {

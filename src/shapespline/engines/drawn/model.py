@@ -1,6 +1,7 @@
 """Lines and circles of an outline in one vector of unknowns, estimated under equations.
 
-Gauss and Newton's method on distances across, in the null space of the linearised equations.
+Unknowns of a line are its direction of travel and its offset along the left normal, of a circle the
+centre and the radius; equations and the method that meets them are in the kernel.
 """
 
 from __future__ import annotations
@@ -12,19 +13,18 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.engines.drawn.constraints import Equations, PassesThrough
 from shapespline.engines.drawn.segments import ARC, FREE, LINE, PRICE, SHORTEST_STEPS
 
 if TYPE_CHECKING:
-    from shapespline.engines.drawn.constraints import Constraint
+    from shapespline._kernels import Equation
     from shapespline.engines.drawn.observed import Observed
     from shapespline.engines.drawn.segments import Segments
     from shapespline.typing import FloatArray
 
 # Rounds, and the step that ends them in parts of the extent.
 ROUNDS, LEAST_STEP = 8, 1e-11
-# An equation follows from others if it leaves less than this part of its entries.
-IMPLIED = 1e-8
+# An equation follows from others if it leaves less than this part of its entries (DRA-41).
+IMPLIED = 1e-6
 # No step is longer than this part of the extent, or of the largest circle: the centre of a nearly
 # straight arc is far, and moves far (DRA-34).
 LONGEST_STEP = 0.3
@@ -64,7 +64,7 @@ class Model:
     x: FloatArray = field(default_factory=lambda: np.empty(0))
     at: dict[int, int] = field(default_factory=dict)
     ways: dict[int, float] = field(default_factory=dict)
-    constraints: list[Constraint] = field(default_factory=list)
+    constraints: list[Equation] = field(default_factory=list)
     alone: dict[Key, tuple[float, ...]] = field(default_factory=dict)
     beside: set[Key] = field(default_factory=set)
     ends: FloatArray | None = None
@@ -72,8 +72,6 @@ class Model:
     _listed: tuple[FloatArray, list[float]] | None = None
     known_nodes: tuple[FloatArray, dict[int, FloatArray]] | None = None
     _known_misfits: tuple[FloatArray, dict[int, Misfit]] | None = None
-    _known_equations: Equations | None = None
-    _known_steps: tuple[FloatArray, Equations, _kernels.MeetingSteps] | None = None
 
     @classmethod
     def of(
@@ -106,7 +104,7 @@ class Model:
         if ends is not None:
             for k, (px, py) in zip((0, len(row.found) - 1), ends.tolist(), strict=True):
                 if k in model.at:
-                    held = PassesThrough(model.at[k], model.kind(k) == LINE, (px, py))
+                    held = _kernels.PassesThrough(model.at[k], model.kind(k) == LINE, px, py)
                     model.constraints.append(held)
         return model
 
@@ -173,12 +171,6 @@ class Model:
         a, b = self.span(k)
         return self.row.points[a : b + 1], self.row.weights[a : b + 1]
 
-    def normal(self, x: FloatArray) -> tuple[FloatArray, FloatArray, dict[int, Misfit]]:
-        """Normal matrix, gradient, misfit of each element."""
-        matrix, gradient = np.zeros((len(x), len(x))), np.zeros(len(x))
-        misfits = self._elements.normal(x, matrix, gradient)
-        return matrix, gradient, {k: Misfit(*one) for k, one in zip(self.at, misfits, strict=True)}
-
     @cached_property
     def _elements(self) -> _kernels.Elements:
         """The points that count, of all elements."""
@@ -197,7 +189,8 @@ class Model:
         """Misfit of each element."""
         known = self._known_misfits
         if known is None or known[0] is not self.x:
-            known = self._known_misfits = self.x, self.normal(self.x)[2]
+            found = zip(self.at, self._elements.misfits(self.x), strict=True)
+            known = self._known_misfits = self.x, {k: Misfit(*one) for k, one in found}
         return known[1]
 
     @property
@@ -209,38 +202,25 @@ class Model:
         """The best estimate under the constraints."""
         if not len(self.x):
             return
-        step = np.empty(len(self.x))
-        for _ in range(rounds):
-            matrix, gradient, _misfits = self.normal(self.x)
-            self._meeting_steps().best(matrix, gradient, step)
-            largest = float(np.abs(step).max())
-            far = LONGEST_STEP * max(self.extent, float(np.abs(self.x).max()))
-            self.x = self.x + step * min(1.0, far / max(largest, 1e-300))
-            if largest < LEAST_STEP * self.extent:
-                break
+        limits = _kernels.EstimateLimits(
+            rounds=rounds,
+            extent=self.extent,
+            least_step=LEAST_STEP,
+            longest_step=LONGEST_STEP,
+            implied=IMPLIED,
+        )
+        x = self.x.copy()
+        _kernels.estimate(self._elements, self.constraints, x, limits)
+        self.x = x
 
     def _meeting_steps(self) -> _kernels.MeetingSteps:
-        """The steps that meet the constraints, linearised.
+        """The steps that meet the constraints, linearised."""
+        return _kernels.MeetingSteps(self._elements, self.constraints, self.x, self.extent, IMPLIED)
 
-        Directions count in arcs of the extent, as the other unknowns are lengths.
-        """
-        equations, known = self._equations(), self._known_steps
-        if known is None or known[0] is not self.x or known[1] is not equations:
-            unit = np.ones(len(self.x))
-            unit[[o for k, o in self.at.items() if self.kind(k) == LINE]] = 1.0 / self.extent
-            steps = _kernels.MeetingSteps(*equations.at(self.x), unit, IMPLIED)
-            known = self._known_steps = self.x, equations, steps
-        return known[2]
-
-    def equations(self) -> tuple[FloatArray, FloatArray]:
-        """Values and Jacobian of all constraints."""
-        return self._equations().at(self.x)
-
-    def _equations(self) -> Equations:
-        known = self._known_equations
-        if known is None or not known.are_of(self.constraints, len(self.x)):
-            known = self._known_equations = Equations(self.constraints, len(self.x))
-        return known
+    @property
+    def off(self) -> float:
+        """By how much the constraints are not met."""
+        return max(map(abs, _kernels.equation_values(self.constraints, self.x)), default=0.0)
 
     @property
     def n_free(self) -> int:

@@ -14,13 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.engines.drawn.constraints import (
-    CirclesTouch,
-    Difference,
-    LineTouches,
-)
 from shapespline.engines.drawn.joints import meeting, turn_at
-from shapespline.engines.drawn.lengths import Edge, EqualLengths
+from shapespline.engines.drawn.lengths import edge_of
 from shapespline.engines.drawn.segments import ARC, LINE
 from shapespline.engines.drawn.symmetry import symmetries
 from shapespline.values import Regularity
@@ -28,7 +23,7 @@ from shapespline.values import Regularity
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator
 
-    from shapespline.engines.drawn.constraints import Constraint
+    from shapespline._kernels import Equation
     from shapespline.engines.drawn.model import Misfit, Model
     from shapespline.typing import FloatArray
 
@@ -110,13 +105,12 @@ class Search:
         else:
             self.found += taken
 
-    def takes(self, equation: Constraint, span: float | None, largest: float = LARGEST) -> bool:
+    def takes(self, equation: Equation, span: float | None, largest: float = LARGEST) -> bool:
         """Whether an equation holds; then estimate and covariance are conditioned by it.
 
         ``span`` is the range that its value could have: that it is nothing must be a surprise.
         """
         model = self.model
-        values, rows = equation.value(model.x)
         limits = _kernels.EquationLimits(
             largest=largest,
             largest_each=EACH_OF_SEVERAL,
@@ -126,7 +120,7 @@ class Search:
             met=MET * model.extent,
         )
         x = model.x.copy()
-        if not _kernels.take_equation(x, self.covariance, equation.index, values, rows, limits):
+        if not _kernels.take_equation(x, self.covariance, equation, limits):
             return False
         model.x = x
         model.constraints.append(equation)
@@ -154,7 +148,7 @@ class Search:
             turn = round(own / quarter) * quarter
             off = own - turn
             level = "axis-parallel" in self.allowed and abs(off) < DIRECTIONS
-            if level and self.takes(Difference((o,), (), turn), quarter):
+            if level and self.takes(_kernels.Difference((o,), (), turn), quarter):
                 heads.insert(0, k)
                 yield Regularity("axis-parallel", (k,), float(np.degrees(off)))
                 continue
@@ -165,7 +159,7 @@ class Search:
                 off = own - other - turns * quarter
                 if name not in self.allowed or abs(off) >= DIRECTIONS:
                     continue
-                if self.takes(Difference((o,), (p,), turns * quarter), quarter):
+                if self.takes(_kernels.Difference((o,), (p,), turns * quarter), quarter):
                     yield Regularity(name, (head, k), float(np.degrees(off)))
                     break
             else:
@@ -181,7 +175,7 @@ class Search:
                 off = hypot(*(model.x[o : o + 2] - model.x[p : p + 2]))
                 if off > 0.5 * min(model.x[o + 2], model.x[p + 2]):
                     continue
-                if self.takes(Difference((o, o + 1), (p, p + 1)), model.extent):
+                if self.takes(_kernels.Difference((o, o + 1), (p, p + 1)), model.extent):
                     yield Regularity("concentric", (head, k), off)
                     break
             else:
@@ -197,7 +191,7 @@ class Search:
                 off = float(model.x[o] - model.x[p])
                 if abs(off) > RADII * model.x[p]:
                     continue
-                if self.takes(Difference((o,), (p,)), 0.5 * model.extent):
+                if self.takes(_kernels.Difference((o,), (p,)), 0.5 * model.extent):
                     yield Regularity("equal-radius", (head, k), off)
                     break
             else:
@@ -215,14 +209,14 @@ class Search:
                 off = float(model.x[o + 1] - sign * model.x[p + 1])
                 if abs(off) > 0.001 * model.extent + 10 * self.model.seen.deviation:
                     continue
-                equation = Difference((o + 1,), (p + 1,), sign=sign)
+                equation = _kernels.Difference((o + 1,), (p + 1,), sign=sign)
                 if self.takes(equation, model.extent):
                     yield Regularity("collinear", (head, k), off)
                     break
 
     def _lengths(self) -> Iterator[Regularity]:
         model = self.model
-        edges = {k: edge for k in model.at if (edge := Edge.of(model, k)) is not None}
+        edges = {k: edge for k in model.at if (edge := edge_of(model, k)) is not None}
         heads: dict[int, list[int]] = {}
         furthest: dict[int, float] = {}
         # Any two of many may agree by chance: each has its part of the range.
@@ -235,7 +229,7 @@ class Search:
                 at = model.x
                 known.clear()
             if k not in known:
-                known[k] = edges[k].length(model.x)[0]
+                known[k] = edges[k].length(model.x)
             return known[k]
 
         for k in sorted(edges, key=lambda k: -length(k)):
@@ -243,7 +237,7 @@ class Search:
                 off = length(k) - length(head)
                 if abs(off) > LENGTHS * model.seen.deviation:
                     continue
-                if self.takes(EqualLengths(edges[head], edges[k]), span):
+                if self.takes(_kernels.EqualLengths(edges[head], edges[k]), span):
                     own.append(k)
                     furthest[head] = max(furthest.get(head, 0.0), abs(off))
                     break
@@ -261,21 +255,20 @@ class Search:
         return sorted(own, key=lambda k: float(variances[model.at[k] + offset]))
 
 
-def tangency(model: Model, k: int, m: int) -> Constraint | None:
+def tangency(model: Model, k: int, m: int) -> Equation | None:
     """The equation that two neighbours are tangent; None for two lines."""
     if model.kind(k) == LINE:
         if model.kind(m) == LINE:
             return None
-        return LineTouches(model.at[k], model.at[m], model.ways[m])
+        return _kernels.LineTouches(model.at[k], model.at[m], model.ways[m])
     if model.kind(m) == LINE:
-        return LineTouches(model.at[m], model.at[k], model.ways[k])
-    return CirclesTouch(model.at[k], model.at[m], model.ways[k] == model.ways[m])
+        return _kernels.LineTouches(model.at[m], model.at[k], model.ways[k])
+    return _kernels.CirclesTouch(model.at[k], model.at[m], model.ways[k] == model.ways[m])
 
 
 def fits_badly(model: Model, before: dict[int, Misfit]) -> bool:
     """Whether equations are not met, or an element fits worse than noise explains."""
-    h, _ = model.equations()
-    if len(h) and not float(np.abs(h).max()) <= MET * model.extent:
+    if not model.off <= MET * model.extent:
         return True
     anyhow = ANYHOW * model.seen.largest_deviation / model.seen.deviation
     for k, now in model.misfits().items():

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn.constraints import Images
+from shapespline import _kernels
 from shapespline.engines.drawn.joints import distance_from, meeting
 from shapespline.engines.drawn.segments import ARC, FREE, LINE
 
@@ -104,7 +104,7 @@ def _kept(
         own = [(model.at[a], model.at[b]) for a, b in images if model.kind(a) == kind]
         if own:
             first, second = zip(*own, strict=True)
-            model.constraints.append(Images(first, second, at, kind == LINE, angle))
+            model.constraints.append(_kernels.Images(first, second, at, kind == LINE, angle))
     model.solve(ROUNDS)
     bad = fits_badly(model, before)
     if bad:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import shapespline as ss
-from shapespline.engines.drawn.lengths import Edge, End, EqualLengths
+from shapespline import _kernels
 
 
 def polygon(corners, noise=0.02, seed=0):
@@ -33,24 +33,16 @@ def said(fit):
     return [one for one in fit.regularities if one.name == "equal-length"]
 
 
-@pytest.mark.parametrize("side", [1.0, -1.0, 0.0])
-def test_slopes_are_those_of_the_length(side):
-    # A line between a line and a circle, and one between two lines.
-    x = np.array([0.2, 1.0, 1.7, -9.0, 11.0, 3.0, 5.0, 1.1, 4.0, -0.9, 2.0])
-    one = Edge(0, End(2, is_line=True), End(4, is_line=False, side=side))
-    other = Edge(7, End(2, is_line=True), End(9, is_line=True))
-    equation = EqualLengths(one, other)
-    h, slopes = equation.value(x)
-    step = 1e-6
-    for column, i in enumerate(equation.index):
-        there, here = x.copy(), x.copy()
-        there[i] += step
-        here[i] -= step
-        expected = (equation.value(there)[0] - equation.value(here)[0]) / (2 * step)
-        # Two roundings of lengths of about 10, and the cubic term.
-        assert slopes[0, column] == pytest.approx(expected[0], abs=1e-8 + 1e2 * step**2)
-    assert set(range(11)) - set(equation.index) == ({6} if side == 0.0 else set()) - {6}
-    assert h.shape == (1,)
+@pytest.mark.parametrize(
+    ("side", "end"), [(1.0, 1 + 2 * np.sqrt(6)), (-1.0, 1 - 2 * np.sqrt(6)), (0.0, 1.0)]
+)
+def test_a_length_is_told_by_what_an_edge_meets(side, end):
+    # The line y = 2 from the line x = -3 to a circle about (1, 3) of radius 5, or to its foot.
+    x = np.array([0.0, 2.0, np.pi / 2, 3.0, 1.0, 3.0, 5.0])
+    edge = _kernels.Edge(
+        0, _kernels.End(2, is_line=True), _kernels.End(4, is_line=False, side=side), 1e-4
+    )
+    assert edge.length(x) == pytest.approx(end + 3, abs=1e-14)
 
 
 def test_equal_edges_of_an_outline_without_symmetry_are_equally_long():
