@@ -176,6 +176,8 @@ def _following(cells: IntArray, codes: IntArray, numbers: IntArray, field: Field
         link(np.flatnonzero(codes == kind), ways)
     for kind in APART:
         saddle = np.flatnonzero(codes == kind)
+        if not len(saddle):  # as in most pictures
+            continue
         # The rim holds no ink, so that the four pixels of a saddle lie in the picture.
         r, c = row[saddle] - 1, column[saddle] - 1
         joined = _joined(field, r, c)

@@ -3,7 +3,6 @@
 // its offset along the left normal, of a circle the centre and the radius.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -30,7 +29,7 @@ class Linearised {
     const std::vector<double> &values() const { return values_; }
     const std::vector<double> &rows() const { return rows_; }
 
-    // The unknowns at some places, which slopes are counted in the order of.
+    // The unknowns at some places; slopes are counted in that order.
     template <std::size_t N>
     std::array<Dual<N>, N> at(const std::array<std::int64_t, N> &places) const {
         std::array<Dual<N>, N> found;

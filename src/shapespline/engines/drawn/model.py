@@ -217,10 +217,10 @@ class Model:
         """The steps that meet the constraints, linearised."""
         return _kernels.MeetingSteps(self._elements, self.constraints, self.x, self.extent, IMPLIED)
 
-    @property
-    def off(self) -> float:
-        """By how much the constraints are not met."""
-        return max(map(abs, _kernels.equation_values(self.constraints, self.x)), default=0.0)
+    def meets_constraints(self, within: float) -> bool:
+        """Whether no equation is off by more."""
+        values = _kernels.equation_values(self.constraints, self.x)
+        return all(abs(value) <= within for value in values)
 
     @property
     def n_free(self) -> int:

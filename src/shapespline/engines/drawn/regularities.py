@@ -268,7 +268,7 @@ def tangency(model: Model, k: int, m: int) -> Equation | None:
 
 def fits_badly(model: Model, before: dict[int, Misfit]) -> bool:
     """Whether equations are not met, or an element fits worse than noise explains."""
-    if not model.off <= MET * model.extent:
+    if not model.meets_constraints(MET * model.extent):
         return True
     anyhow = ANYHOW * model.seen.largest_deviation / model.seen.deviation
     for k, now in model.misfits().items():

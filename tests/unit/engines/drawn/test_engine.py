@@ -186,7 +186,7 @@ def test_equations_are_met_and_the_rest_is_least_squares():
         _kernels.LineTouches(model.at[line], model.at[circle], model.ways[circle])
     )
     model.solve()
-    assert model.off < 1e-10
+    assert model.meets_constraints(1e-10)
     assert model.n_free == len(model.x) - 1
     # Along the equation nothing is left to gain: half of chi squared has no slope there but what
     # differences of it have, h^2 times a third derivative, and rounding over h.
