@@ -165,7 +165,10 @@ class Elements {
 
     std::vector<Misfit> misfits(std::span<const double> x) const {
         std::vector<Misfit> found;
-        for (std::size_t k = 0; k < size(); ++k) found.push_back(misfit(across(k, x)));
+        for (std::size_t k = 0; k < size(); ++k) {
+            const Across off = across(k, x);
+            found.push_back({precision_ * off.sum_sq, off.weight, off.largest});
+        }
         return found;
     }
 
@@ -216,10 +219,6 @@ class Elements {
     }
 
   private:
-    Misfit misfit(const Across &off) const {
-        return {precision_ * off.sum_sq, off.weight, off.largest};
-    }
-
     std::size_t unknowns(std::size_t k) const { return is_line_[k] ? 2 : 3; }
 
     Across across(std::size_t k, std::span<const double> x) const {
