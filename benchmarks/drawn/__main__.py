@@ -12,10 +12,18 @@ import argparse
 
 from benchmarks.drawn.limits import limits_table
 from benchmarks.drawn.page import write_page
+from benchmarks.drawn.profiles import profiles_table
 from benchmarks.drawn.tables import pictures_tables, recovered_table, sampled_table
 
 LIMITS = """Errors over those of least squares that are told which points are whose, what is a line
 or an arc and which joints are tangent: of lines, of arcs, of corners, of the fits that are right.
+
+"""
+
+PROFILES = """
+Profiles of straight edges and curves between corners (`python -m benchmarks.drawn.profiles`), half of
+ten draws level: how many fits have the profile's own edges and curves, and the distance to the truth
+over that of the fewest points, root mean squares.
 
 """
 
@@ -26,7 +34,7 @@ def main() -> None:
     parser.add_argument("--page", action="store_true", help="write docs/drawn.md and its pictures")
     asked = parser.parse_args()
     pictures, points = pictures_tables(), f"{sampled_table()}\n{recovered_table()}\n{LIMITS}"
-    points += limits_table()
+    points += f"{limits_table()}{PROFILES}{profiles_table()}"
     print("\n".join([*pictures.texts, points, *pictures.left_out]))
     if asked.page:
         write_page(pictures, points)

@@ -16,6 +16,8 @@ from shapespline.engines.drawn import (
 )
 from shapespline.engines.pieces import MirroredHalf
 from shapespline.fitting.choose import DRAWN, FEW_DRAWN
+from shapespline.fitting.estimate import DRAWN_DEARER
+from shapespline.fitting.noisy_runs import NoisyRuns
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.verify import Candidate
 from shapespline.geometry import joined, two_sided_distance
@@ -23,6 +25,8 @@ from shapespline.validation import median
 from shapespline.values import Contour, Piece
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from shapespline.analysis import Resolution
     from shapespline.engines.drawn import Drawn
     from shapespline.fitting.estimate import Estimation
@@ -34,6 +38,11 @@ if TYPE_CHECKING:
 # picture than so many times its accuracy; a corner that it blunts lies beyond them (DRA-06). More
 # than a pixel, and two at a corner, no picture is off.
 FARTHEST, FARTHEST_OF_PICTURE, FARTHEST_CORNER = 1.5, 25.0, 75.0
+# Free-form runs among noisy points must cost so much less than lines and arcs alone, two control
+# points (FIT-38).
+RUNS_DEARER = 7.0
+# Kinds of pieces that are neither lines nor arcs.
+CURVED = ("bezier", "spline")
 
 
 @dataclass(frozen=True)
@@ -58,19 +67,20 @@ class DrawnPieces:
         within = problem.tolerance if self.shown is None else self.shown.band
         normalized = problem.upright
         scale = normalized.scale
-        found = problem.lines_and_arcs
-        if found is None or monitor.ended:
+        proposed: list[tuple[float, Candidate, Drawn]] = []
+        for reading in self._readings(problem):
+            candidate = (
+                None if monitor.ended else self._candidate(problem, reading, within, monitor)
+            )
+            cost = None if candidate is None else self._cost(candidate, reading, problem)
+            if candidate is not None and cost is not None:
+                dearer = RUNS_DEARER if _has_runs(reading) else 0.0
+                proposed.append((cost + dearer, candidate, reading))
+                if not _has_runs(reading) and self._needs_no_other(cost):
+                    break
+        if not proposed:
             return
-        # A whole circle is its own mirror image.
-        mirrored = len(found.parts) == 1 or any(one.name == "mirror" for one in found.regularities)
-        if problem.request.symmetric and not mirrored and MirroredHalf.of(problem.thinned):
-            return
-        runs = any(isinstance(part, FreeRun) for part in found.parts)
-        if runs and self.shown is not None and not self.shown.clean:
-            return  # noise between them is smoothed with the rest
-        candidate = self._candidate(problem, found, within, monitor)
-        if candidate is None or not self._explains(candidate, found, problem):
-            return
+        _, candidate, found = min(proposed, key=lambda one: one[0])
         yield candidate
         if style.simplify:
             measured = two_sided_distance(joined(candidate.pieces, style.degree), problem.contour)
@@ -80,6 +90,20 @@ class DrawnPieces:
                 other = self._candidate(problem, simpler, within, monitor)
                 if other is not None:
                     yield other
+
+    def _readings(self, problem: Problem) -> Iterator[Drawn]:
+        """What the points tell, each way that it may be: noisy points may be read in several."""
+        found, noisy = problem.lines_and_arcs, self.shown is not None and not self.shown.clean
+        symmetric, of_picture = problem.request.symmetric, problem.contour.level_line is not None
+        if found is not None:
+            # A whole circle is its own mirror image.
+            mirrored = len(found.parts) == 1 or any(o.name == "mirror" for o in found.regularities)
+            if symmetric and not mirrored and MirroredHalf.of(problem.thinned):
+                return
+            if not (noisy and of_picture and _has_runs(found)):  # that is smoothed with the rest
+                yield found
+        if noisy and not (of_picture or symmetric):
+            yield from problem.between_corners
 
     def _candidate(
         self, problem: Problem, found: Drawn, within: float, monitor: Monitor
@@ -102,6 +126,9 @@ class DrawnPieces:
         """Pieces in the working unit, none where a run was not fitted; and what they keep."""
         pieces: list[Piece] = []
         place: dict[int, int] = {}
+        noisy = self._noisy(problem, monitor)
+        if noisy is not None:
+            found = noisy.meeting(found, closed=problem.contour.closed)
         for k, part in enumerate(found.parts):
             place[k] = len(pieces)
             if isinstance(part, DrawnLine):
@@ -112,6 +139,9 @@ class DrawnPieces:
             elif isinstance(part, DrawnArc):
                 pieces.append(Piece.of_arc(part.arc, within, begin=part.begin, end=part.end))
             else:
+                if noisy is not None:
+                    pieces += noisy.smoothed(part)
+                    continue
                 run = Contour.silently(part.points, False)
                 asked = problem.request.part(run, within, part.tangents)
                 fitted = self.ask(Problem(asked), monitor)
@@ -126,10 +156,26 @@ class DrawnPieces:
         ]
         return tuple(pieces), kept
 
-    def _explains(self, candidate: Candidate, drawn: Drawn, problem: Problem) -> bool:
-        """Whether the curve comes near all points, and noisy ones tell no other as well."""
-        if self.estimation is None:
+    def _noisy(self, problem: Problem, monitor: Monitor) -> NoisyRuns | None:
+        """What smooths free-form runs of noisy points; None of others."""
+        if self.estimation is None or self.estimation.shown.clean:
+            return None
+        noise = self.estimation.means.noise * problem.upright.scale
+        return NoisyRuns(problem.request.style.degree, noise, monitor)
+
+    def _needs_no_other(self, cost: float) -> bool:
+        """Whether one spline costs so much more that no curves between corners need be tried."""
+        if self.estimation is None or self.estimation.shown.clean:
             return True
+        return cost <= self.estimation.smooth.cost - DRAWN_DEARER
+
+    def _cost(self, candidate: Candidate, drawn: Drawn, problem: Problem) -> float | None:
+        """What the curve costs; None where it misses points, or noisy ones tell no other as well.
+
+        Of clean points one reading alone is proposed, which costs nothing.
+        """
+        if self.estimation is None:
+            return 0.0
         contour, shown = problem.contour, self.estimation.shown
         found = two_sided_distance(joined(candidate.pieces, problem.request.style.degree), contour)
         # What was not drawn is a curve like others, and those follow what clean points tell.
@@ -146,13 +192,22 @@ class DrawnPieces:
         elif len(candidate.pieces) > 1:
             beyond = max(beyond, step)  # corners lie between points
         if found.max_distance > farthest or found.reverse_distance > beyond:
-            return False
+            return None
         # What is left of a picture's slow errors is no noise.
-        return (
-            accuracy is not None
-            or shown.clean
-            or self.estimation.justifies(candidate.pieces, drawn.n_unknowns, told=drawn.is_told)
-        )
+        if accuracy is not None or shown.clean:
+            return 0.0
+        n_unknowns = drawn.n_unknowns + 2 * _n_of_runs(candidate.pieces, drawn)
+        return self.estimation.cost_of(candidate.pieces, n_unknowns, told=drawn.is_told)
+
+
+def _has_runs(drawn: Drawn) -> bool:
+    return any(isinstance(part, FreeRun) for part in drawn.parts)
+
+
+def _n_of_runs(pieces: tuple[Piece, ...], drawn: Drawn) -> int:
+    """Control points of free-form runs that no line or arc tells."""
+    inner = sum(len(one.control_points) - 2 for one in pieces if one.kind in CURVED)
+    return inner + len(pieces) - len(drawn.parts)
 
 
 def _with_ends(pieces: tuple[Piece, ...], problem: Problem) -> tuple[Piece, ...]:

@@ -188,8 +188,8 @@ class Estimation:
         """What the points say of it."""
         return Evidence.of_spline(self.start, self.means, self.ordered)
 
-    def justifies(self, pieces: tuple[Piece, ...], n_unknowns: int, *, told: bool) -> bool:
-        """Whether lines and arcs tell the points as well as one spline does.
+    def cost_of(self, pieces: tuple[Piece, ...], n_unknowns: int, *, told: bool) -> float | None:
+        """What lines, arcs and smoothed runs cost; None if one spline tells the points better.
 
         Of their numbers they pay for those alone that regularities leave free.
         """
@@ -201,7 +201,7 @@ class Estimation:
         said = Evidence.of_pieces(pieces, self._degree, self.means, self.ordered, joints)
         free = n_unknowns + (0 if self.ordered.closed else 2)
         cost = said.cost + PENALTY * (0.5 * free - said.n_stored_points)
-        return cost <= self.smooth.cost + dearer
+        return cost if cost <= self.smooth.cost + dearer else None
 
     def _n_clear_corners(self, pieces: tuple[Piece, ...]) -> int:
         """Corners that turn as much as those of data do."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.analysis import NormalizedContour, filled, has_straight_runs
-from shapespline.engines.drawn import as_drawn
+from shapespline.engines.drawn import as_drawn, drawn_between_corners
 from shapespline.engines.pieces import PiecesProblem
 from shapespline.errors import InvalidInputError
 from shapespline.geometry import PointsByX
@@ -95,6 +95,14 @@ class Problem:
             request.style.regularities,
             np.inf if request.tolerance is None else request.tolerance * scale,
             holds_ends=request.constraints.ends,
+        )
+
+    @cached_property
+    def between_corners(self) -> list[Drawn]:
+        """Free-form runs from corner to corner beside long elements, if noisy points may be so."""
+        request = self.request
+        return drawn_between_corners(
+            self.seen, request.style.regularities, holds_ends=request.constraints.ends
         )
 
     @property

@@ -9,13 +9,21 @@ import numpy as np
 
 from shapespline.analysis import NOISE_BAND, find_corners
 from shapespline.engines.least_squares import (
+    FINAL_LIMITS,
+    STRAY_WEIGHT,
     Smoothed,
+    averaged,
+    balanced_start,
     cheapest,
+    minimized,
+    named_solver,
     sizes_tried,
     smoothed_to,
     straight_line,
 )
-from shapespline.values import Contour
+from shapespline.fitting.settings import DEFAULT_METHOD
+from shapespline.fitting.smooth import as_piece
+from shapespline.values import Contour, Piece
 
 if TYPE_CHECKING:
     from shapespline.monitor import Monitor
@@ -83,7 +91,8 @@ class Runs:
                     at = placed[k] + way
                     moved = [*placed[:k], at % n if self._contour.closed else at, *placed[k + 1 :]]
                     runs = self._beside(moved, moved[k])
-                    if any(end - begin <= self._degree + 1 for begin, end in runs):
+                    short = any(end - begin <= self._degree + 1 for begin, end in runs)
+                    if short or len(runs) < len(sizes):  # beside an end or another corner
                         break
                     cost = sum(
                         self._smoothed(*run, size).cost
@@ -107,10 +116,50 @@ class Runs:
             points[np.arange(*run) % n] = piece
         return points, sum(run.n_control_points for run in runs)
 
+    def fitted(self) -> tuple[Piece, ...]:
+        """An open contour as lines and splines that meet in its corners and end in its ends."""
+        corners = self.kept_corners().indices
+        points, _ = self.joined(corners)
+        points[[0, -1]] = self._contour.points[[0, -1]]
+        return tuple(
+            self._piece(begin, end, points[[begin, end - 1]])
+            for begin, end in self._cut(corners.tolist())
+        )
+
+    def continued(self, end: int) -> FloatArray:
+        """The polynomial beyond the first (0) or last (-1) point of an open contour, whole."""
+        return self._run(0, len(self._contour)).continued(end)
+
+    def _piece(self, begin: int, end: int, ends: FloatArray) -> Piece:
+        """A run from one point to before another: the mean of what several sizes tell (FIT-33)."""
+        points = self._contour.points[begin:end].copy()
+        points[[0, -1]] = ends
+        run, degree = Contour.silently(points, closed=False), self._degree
+        size = self._run(begin, end).n_control_points
+        if size <= degree or len(run) <= degree + 1:
+            return Piece("line", 1, np.array([0.0, 0.0, 1.0, 1.0]), ends)
+        tried = sizes_tried(run, degree, self._noise, monitor=self._monitor)
+        told = averaged(tried, run, degree, self._noise, monitor=self._monitor)
+        if told is not None:
+            points = told.outline.points.copy()
+            points[[0, -1]] = ends
+            run, size = Contour.silently(points, closed=False), told.start.spline.n_control_points
+        start = balanced_start(run, size, degree, rounds=0, ask=self._monitor.ends)
+        found = minimized(
+            run,
+            start,
+            named_solver(DEFAULT_METHOD)[0],
+            ends="fixed",
+            stray_weight=STRAY_WEIGHT,
+            limits=FINAL_LIMITS,
+            ask=self._monitor.ends,
+        )
+        return as_piece(found.spline)
+
     def _meet(self, before: Smoothed, left: FloatArray, after: Smoothed, right: FloatArray) -> None:
         """Ends two runs where they cross if continued, or half-way if that is beyond the noise."""
         reach = NOISE_BAND * self._noise
-        crossing = _crossing(before.continued(-1), after.continued(0))
+        crossing = crossing_of(before.continued(-1), after.continued(0))
         corner = left[-1] + 0.5 * (right[0] - left[-1])
         u, v = before.tangent(-1), after.tangent(0)
         if crossing is not None and np.hypot(*(crossing.point - corner)) <= reach:
@@ -164,7 +213,7 @@ class Runs:
         return smoothed_to(size, run, self._degree, self._noise, monitor=self._monitor)
 
 
-class _Crossing(NamedTuple):
+class Crossing(NamedTuple):
     """Where two curves cross and their unit directions there."""
 
     point: FloatArray
@@ -172,7 +221,7 @@ class _Crossing(NamedTuple):
     after: FloatArray
 
 
-def _crossing(before: FloatArray, after: FloatArray) -> _Crossing | None:
+def crossing_of(before: FloatArray, after: FloatArray) -> Crossing | None:
     """Where two polynomials cross near 0, None if they do not; coefficients (k, 2) each."""
     at = np.zeros(2)
     for _ in range(CROSSING_STEPS):
@@ -183,7 +232,7 @@ def _crossing(before: FloatArray, after: FloatArray) -> _Crossing | None:
         gap = q - p
         at = at + np.array([gap[0] * v[1] - gap[1] * v[0], gap[0] * u[1] - gap[1] * u[0]]) / turn
     (p, u), (_, v) = (_of_polynomial(c, t) for c, t in zip((before, after), at, strict=True))
-    return _Crossing(p, u / np.hypot(*u), v / np.hypot(*v))
+    return Crossing(p, u / np.hypot(*u), v / np.hypot(*v))
 
 
 def _of_polynomial(coefficients: FloatArray, at: float) -> tuple[FloatArray, FloatArray]:

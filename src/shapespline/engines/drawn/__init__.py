@@ -2,7 +2,7 @@
 
 from shapespline.engines.drawn.across import Feature, repeated_outlines
 from shapespline.engines.drawn.copies import Outline, Placement, placement_of
-from shapespline.engines.drawn.engine import as_drawn
+from shapespline.engines.drawn.engine import as_drawn, drawn_between_corners
 from shapespline.engines.drawn.observed import ONE_BIT, Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES
@@ -20,6 +20,7 @@ __all__ = [
     "Outline",
     "Placement",
     "as_drawn",
+    "drawn_between_corners",
     "placement_of",
     "repeated_outlines",
     "simplified",

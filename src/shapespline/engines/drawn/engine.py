@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.engines.drawn.between_corners import rows_between_corners
 from shapespline.engines.drawn.ends import (
     SMOOTH_END,
     at_corners,
@@ -20,7 +21,13 @@ from shapespline.engines.drawn.ends import (
 from shapespline.engines.drawn.estimated import MOST_WRONG, Estimated, estimated, settled
 from shapespline.engines.drawn.fillets import rows_with_fillets
 from shapespline.engines.drawn.joints import direction_at
-from shapespline.engines.drawn.judgement import LARGEST, is_enough, is_short, without_few
+from shapespline.engines.drawn.judgement import (
+    LARGEST,
+    is_enough,
+    is_short,
+    tell_by_direction,
+    without_few,
+)
 from shapespline.engines.drawn.merging import merged_arcs
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.nearby import rows_nearby
@@ -45,6 +52,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
     from shapespline.engines.drawn.parts import Part
+    from shapespline.engines.drawn.segments import Segment
     from shapespline.typing import FloatArray
     from shapespline.values import Contour
 
@@ -118,12 +126,55 @@ def as_drawn(
             continue
         if np.isinf(tolerance) and not one.pixel:
             best = _cheapest(best, row)
-        model, found = best.model, best.found
-        if set(regularities) != set(NAMES):
-            model = Model.of(one, model.row, model, ends)
-            found = Search(model, regularities).run()
-        return _drawn(shared_anew(model), found, tolerance, best.told)
+        return _finished(best, regularities, tolerance)
     return None
+
+
+def drawn_between_corners(
+    contour: Contour, regularities: Collection[str] = NAMES, *, holds_ends: bool = False
+) -> list[Drawn]:
+    """Other readings of noisy points: free-form runs from corner to corner beside long elements.
+
+    None without corners, without free-form runs, and where no directions tell of a drawing; they
+    are no better than others for that, which the curves decide (DRA-42). Arguments as of
+    `as_drawn`.
+
+    Examples
+    --------
+    >>> from shapespline.values import Contour
+    >>> x = np.linspace(0, 100, 120)
+    >>> wave = np.column_stack([x[::-1], 50 + 6 * np.sin(0.1 * x)])
+    >>> side = np.linspace(0, 50, 50, endpoint=False)
+    >>> left, base = np.column_stack([0 * side, 50 - side]), np.column_stack([x[1:-1], 0 * x[1:-1]])
+    >>> points = np.concatenate([wave, left, base, np.column_stack([100 + 0 * side, side])])
+    >>> points += np.random.default_rng(1).normal(0, 0.3, points.shape)
+    >>> found = drawn_between_corners(Contour(points, closed=True))
+    >>> sorted(type(part).__name__ for part in found[0].parts)
+    ['DrawnLine', 'DrawnLine', 'DrawnLine', 'FreeRun']
+    """
+    if len(contour) < FEWEST_POINTS:
+        return []
+    seen = Observed.of(contour, None)
+    ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
+    readings: dict[tuple[Segment, ...], Drawn] = {}
+    for row in rows_between_corners(seen, segmented(seen)):
+        found = estimated(Model.of(seen, row, None, ends), row, np.inf)
+        if found is None or not free_runs(found.model.row):
+            continue
+        best = settled(found, np.inf)
+        own = best.model.row.found
+        if own not in readings and tell_by_direction(best.model, best.found):
+            readings[own] = _finished(best._replace(told=True), regularities, np.inf)
+    return list(readings.values())
+
+
+def _finished(best: Estimated, regularities: Collection[str], tolerance: float) -> Drawn:
+    """Parts of an estimate, its points shared anew; it may keep some regularities only."""
+    model, found = best.model, best.found
+    if set(regularities) != set(NAMES):
+        model = Model.of(model.seen, model.row, model, model.ends)
+        found = Search(model, regularities).run()
+    return _drawn(shared_anew(model), found, tolerance, best.told)
 
 
 def _of_row(

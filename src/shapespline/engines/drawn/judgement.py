@@ -38,6 +38,10 @@ LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH, LITTLE_FREE = 0.2, 0.65, 0.5, 0.1
 # A line from corner to corner was drawn, whatever it repeats, if no arc of a radius below so many
 # pixels lies as near to it (DRA-40).
 PLAIN = 900.0
+# That a line's direction is another's, or level, says something if it is known to so many radians
+# (DRA-42).
+DIRECTED = ("axis-parallel", "parallel", "perpendicular", "collinear")
+KNOWN_DIRECTION = float(np.radians(0.7))
 # So few elements and nothing else may be what was drawn though they keep no regularities (DRA-17).
 FEW_ELEMENTS = 12
 # Between its nodes an element has at least this part of the length of its data.
@@ -231,6 +235,23 @@ def repeated(model: Model, found: list[Regularity]) -> float:
             if one.name != "tangent":
                 speak.update(one.pieces)
     return (said + len(_plain_lines(model) - speak)) / n
+
+
+def tell_by_direction(model: Model, found: list[Regularity]) -> bool:
+    """Whether most elements are lines that are level, parallel or square, and known to be so.
+
+    Two parallel edges tell of each other; among much noise any directions agree (DRA-42).
+    """
+    speak = {k for one in found if one.name in DIRECTED for k in one.pieces}
+    known = {k for k in speak if _direction_error(model, k) <= KNOWN_DIRECTION}
+    return len(known) >= LEAST_SAID * len(model.at)
+
+
+def _direction_error(model: Model, k: int) -> float:
+    """Standard error of the direction of a line alone, radians."""
+    begin, end, _ = model.row.found[k]
+    n = max(1, end - begin)
+    return model.seen.deviation * float(np.sqrt(12.0 / n)) / data_length(model, k)
 
 
 def _plain_lines(model: Model) -> set[int]:

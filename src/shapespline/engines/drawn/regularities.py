@@ -69,6 +69,7 @@ class Search:
     covariance: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
     found: list[Regularity] = field(default_factory=list)
     _known_at: FloatArray | None = None  # the estimate whose covariance it is
+    _apart: set[int] = field(default_factory=set)  # elements that are tangent to none
 
     def run(self) -> list[Regularity]:
         """All families in turn; the model holds the estimate under what was taken."""
@@ -88,22 +89,33 @@ class Search:
         return self.found
 
     def _family(self, name: str, tried: Callable[[], Iterator[Regularity]]) -> None:
+        """The equations of one family that hold; where an element fits badly none of them.
+
+        Tangency is about two elements, not all: of measured points one may have a neighbour's,
+        and the others are tried without it (DRA-43).
+        """
         model = self.model
         if name not in self.allowed and name != "axis-parallel":
             return
         kept, before = (model.x, list(model.constraints)), model.misfits()
-        if self._known_at is not model.x:
-            self.covariance = model.covariance()
-        taken = list(tried())
-        # Equations that hold condition it with the estimate; where none does it stays.
-        self._known_at = model.x if model.x is kept[0] else None
-        if not taken:
-            return
-        model.solve()
-        if fits_badly(model, before):
-            model.x, model.constraints = kept
-        else:
-            self.found += taken
+        while True:
+            if self._known_at is not model.x:
+                self.covariance = model.covariance()
+            taken = list(tried())
+            # Equations that hold condition it with the estimate; where none does it stays.
+            self._known_at = model.x if model.x is kept[0] else None
+            if not taken:
+                return
+            model.solve()
+            bad = badly_fitting(model, before)
+            if not bad:
+                self.found += taken
+                return
+            model.x, model.constraints = kept[0], list(kept[1])
+            joined = {k for one in taken for k in one.pieces}
+            if name != "tangent" or model.seen.pixel or not bad & joined:
+                return
+            self._apart |= bad
 
     def takes(self, equation: Equation, span: float | None, largest: float = LARGEST) -> bool:
         """Whether an equation holds; then estimate and covariance are conditioned by it.
@@ -131,6 +143,8 @@ class Search:
         for k in range(n if model.seen.closed else n - 1):
             m = (k + 1) % n
             if k == m or k not in model.at or m not in model.at:
+                continue
+            if k in self._apart or m in self._apart:
                 continue
             equation = tangency(model, k, m)
             if equation is None:
@@ -268,11 +282,17 @@ def tangency(model: Model, k: int, m: int) -> Equation | None:
 
 def fits_badly(model: Model, before: dict[int, Misfit]) -> bool:
     """Whether equations are not met, or an element fits worse than noise explains."""
+    return bool(badly_fitting(model, before))
+
+
+def badly_fitting(model: Model, before: dict[int, Misfit]) -> set[int]:
+    """Elements that fit worse than noise explains, all of them where equations are not met."""
     if not model.meets_constraints(MET * model.extent):
-        return True
+        return set(model.at)
     anyhow = ANYHOW * model.seen.largest_deviation / model.seen.deviation
+    bad: set[int] = set()
     for k, now in model.misfits().items():
         old = before[k].mean
         if not now.mean <= max(WORSE_PART * old, old + WORSE_BY, anyhow):
-            return True
-    return False
+            bad.add(k)
+    return bad

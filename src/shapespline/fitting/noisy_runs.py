@@ -1,0 +1,150 @@
+"""Free-form runs of noisy points between lines and arcs: where they meet these, and smoothed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.analysis import NOISE_BAND
+from shapespline.engines.drawn import DrawnArc, DrawnLine, FreeRun
+from shapespline.fitting.runs import Runs, crossing_of
+from shapespline.validation import median
+from shapespline.values import FULL_TURN, Arc, Contour
+
+if TYPE_CHECKING:
+    from shapespline.engines.drawn import Drawn
+    from shapespline.fitting.runs import Crossing
+    from shapespline.monitor import Monitor
+    from shapespline.typing import FloatArray
+    from shapespline.values import Piece
+
+# A corner is moved by no more than so many steps and the band of the noise to where a run and the
+# element beside it cross if continued (FIT-38).
+STEPS = 1.5
+# So many points at an end of a run may be the element's beside it (FIT-38).
+UNCERTAIN = 1
+# Regularities of a whole outline, which corners that move one by one would break (FIT-38).
+WHOLE = ("mirror", "rotation")
+
+
+@dataclass(frozen=True)
+class NoisyRuns:
+    """What smooths them: the degree, the noise of the points, in their unit."""
+
+    degree: int
+    noise: float
+    monitor: Monitor
+
+    def meeting(self, drawn: Drawn, *, closed: bool) -> Drawn:
+        """The same with corners where runs and elements cross if both are continued.
+
+        Where the data of an element end is known to a step only, and the run that begins there
+        would turn with it.
+        """
+        if any(one.name in WHOLE for one in drawn.regularities):
+            return drawn
+        parts, n = list(drawn.parts), len(drawn.parts)
+        for k, run in enumerate(drawn.parts):
+            if not isinstance(run, FreeRun):
+                continue
+            points = run.points
+            for end, m in ((0, k - 1), (-1, k + 1)):
+                other = parts[m % n] if closed or 0 <= m < n else run
+                if run.tangents[end] is not None or isinstance(other, FreeRun):
+                    continue
+                crossing = self._crossing(run.points, end, other)
+                if crossing is not None:
+                    points = _ending_there(points, end, crossing)
+                    parts[m % n] = _ending_in(other, crossing.point, -1 - end)
+            parts[k] = replace(run, points=points)
+        return replace(drawn, parts=tuple(parts))
+
+    def smoothed(self, run: FreeRun) -> tuple[Piece, ...]:
+        """Lines and splines of a run, from its first point to its last one, along its tangents."""
+        pieces = self._runs(run.points).fitted()
+        begin, end = run.tangents
+        if begin is not None and pieces[0].degree > 1:
+            _lead(pieces[0].control_points[:2], begin)
+        if end is not None and pieces[-1].degree > 1:
+            _lead(pieces[-1].control_points[:-3:-1], -end)
+        return pieces
+
+    def _runs(self, points: FloatArray) -> Runs:
+        return Runs(Contour.silently(points, closed=False), self.degree, self.noise, self.monitor)
+
+    def _crossing(
+        self, points: FloatArray, end: int, element: DrawnLine | DrawnArc
+    ) -> Crossing | None:
+        """Where a run and the element before (0) or behind it (-1) meet if that is near."""
+        node = points[end]
+        if len(points) < 2 * (UNCERTAIN + self.degree + 1):
+            return None
+        reach = STEPS * median(np.hypot(*np.diff(points, axis=0).T)) + NOISE_BAND * self.noise
+        continued = self._runs(points[UNCERTAIN:-UNCERTAIN]).continued(end)
+        crossing = crossing_of(continued, _expanded(element, node, reach))
+        if crossing is None:
+            return None
+        met = _onto(element, node, crossing.point)
+        return crossing._replace(point=met) if np.hypot(*(met - node)) <= reach else None
+
+
+def _ending_there(points: FloatArray, end: int, crossing: Crossing) -> FloatArray:
+    """A run that begins (0) or ends (-1) in a crossing, without the element's points beside it."""
+    row = points if end == 0 else points[::-1]
+    inwards = crossing.before if end == 0 else -crossing.before
+    near = row[1 : 1 + 2 * UNCERTAIN]
+    kept = np.concatenate(
+        [row[:1], near[(near - crossing.point) @ inwards > 0.0], row[1 + 2 * UNCERTAIN :]]
+    )
+    kept[0] = crossing.point
+    return kept if end == 0 else kept[::-1]
+
+
+def _expanded(element: DrawnLine | DrawnArc, node: FloatArray, unit: float) -> FloatArray:
+    """Coefficients of an element about one of its points, by powers of the length in some unit."""
+    if isinstance(element, DrawnLine):
+        return np.stack([node, unit * _direction(element)])
+    away = node - np.array(element.arc.centre)
+    x, y = away / np.hypot(*away)
+    bend = -0.5 * unit**2 / element.arc.radius * np.array([x, y])
+    return np.stack([node, unit * np.array([-y, x]), bend])
+
+
+def _direction(line: DrawnLine) -> FloatArray:
+    along = line.end - line.begin
+    return along / np.hypot(*along)
+
+
+def _onto(element: DrawnLine | DrawnArc, node: FloatArray, point: FloatArray) -> FloatArray:
+    """The point of an element nearest to one; a level edge stays level to the bit."""
+    if isinstance(element, DrawnLine):
+        along = _direction(element)
+        nearest = node + ((point - node) @ along) * along
+        return np.where(element.begin == element.end, node, nearest)
+    centre = np.array(element.arc.centre)
+    away = point - centre
+    return centre + element.arc.radius * away / np.hypot(*away)
+
+
+def _ending_in(element: DrawnLine | DrawnArc, node: FloatArray, end: int) -> DrawnLine | DrawnArc:
+    """An element with another first (0) or last (-1) point."""
+    if isinstance(element, DrawnLine):
+        return DrawnLine(node, element.end) if end == 0 else DrawnLine(element.begin, node)
+    arc, old = element.arc, element.begin if end == 0 else element.end
+    (ux, uy), (vx, vy) = old - np.array(arc.centre), node - np.array(arc.centre)
+    turn = float(np.arctan2(ux * vy - uy * vx, ux * vx + uy * vy))
+    sweep = arc.sweep - turn if end == 0 else arc.sweep + turn
+    if sweep * arc.sweep <= 0.0 or abs(sweep) >= FULL_TURN:
+        return element
+    start = arc.start_angle + turn if end == 0 else arc.start_angle
+    moved = Arc(arc.centre, arc.radius, start, sweep)
+    return DrawnArc(moved, node, element.end) if end == 0 else DrawnArc(moved, element.begin, node)
+
+
+def _lead(ends: FloatArray, direction: FloatArray) -> None:
+    """Moves the second of two control points to where it is nearest along a direction."""
+    along = float((ends[1] - ends[0]) @ direction)
+    if along > 0.0:
+        ends[1] = ends[0] + along * direction

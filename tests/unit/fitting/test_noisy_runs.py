@@ -1,0 +1,140 @@
+"""Free-form runs of noisy points: edges stay straight, corners sharp and in their place."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from benchmarks.drawn.profiles import PROFILES, noisy_profile
+from benchmarks.drawn.truth import Line
+from scipy.spatial import cKDTree
+
+import shapespline as ss
+from shapespline.engines.drawn import Drawn, DrawnArc, DrawnLine, FreeRun
+from shapespline.fitting.noisy_runs import NoisyRuns
+from shapespline.monitor import Monitor
+from shapespline.values import Arc, Regularity
+
+
+def noisy(name: str, noise: float, n: int, draw: int) -> tuple[np.ndarray, np.ndarray]:
+    drawn = noisy_profile(name, draw, 10)
+    return next((points, dense) for key, points, dense in drawn if key == (noise, n))
+
+
+@pytest.mark.parametrize(
+    ("name", "noise", "n", "draw"),
+    [
+        ("cover", 0.1, 200, 1),  # one spline of 18 points, no corner
+        ("cover", 0.1, 1000, 0),  # edges cut in two, lines in the wave
+        ("knife", 0.1, 1000, 6),
+        ("flag", 0.1, 200, 2),
+        ("lute", 0.5, 1000, 0),
+        ("saddle (aside)", 0.02, 1000, 3),
+        ("spade (aside)", 0.02, 1000, 4),
+    ],
+)
+def test_edges_and_corners_of_a_profile_are_those_of_the_drawing(name, noise, n, draw):
+    points, dense = noisy(name, noise, n, draw)
+    fit = ss.fit_curve(points, closed=True)
+    kinds = [piece.kind for piece in fit.pieces]
+    assert kinds.count("line") == sum(isinstance(one, Line) for one in PROFILES[name])
+    assert "arc" not in kinds
+    # The curve is nearer to the truth than its points; a corner is where edge and curve meet, known
+    # to some deviations and a part of a step.
+    size = float(np.hypot(*np.ptp(dense, axis=0)))
+    far = cKDTree(dense).query(fit.curve(np.linspace(0, 1, 3000)))[0]
+    sigma, step = 0.01 * noise * size, float(np.hypot(*np.diff(points, axis=0).T).mean())
+    assert np.sqrt((far**2).mean()) < sigma
+    assert far.max() < 3.0 * sigma + 0.3 * step
+
+
+def test_level_edges_beside_curves_are_level_to_the_bit():
+    points, _ = noisy("cover", 0.5, 1000, 0)
+    fit = ss.fit_curve(points, closed=True)
+    lines = [piece.control_points for piece in fit.pieces if piece.kind == "line"]
+    level = [line for line in lines if (line[0] == line[1]).any()]
+    assert len(level) == 3
+    told = {k for one in fit.regularities if one.name == "axis-parallel" for k in one.pieces}
+    assert all(
+        (fit.pieces[k].control_points[0] == fit.pieces[k].control_points[1]).any() for k in told
+    )
+
+
+def test_the_curve_is_one_without_gaps_and_both_distances_are_measured():
+    points, _ = noisy("flag", 0.1, 1000, 3)
+    fit = ss.fit_curve(points, closed=True)
+    around = [*fit.pieces, fit.pieces[0]]
+    for before, after in pairwise(around):
+        assert np.array_equal(before.control_points[-1], after.control_points[0])
+    far = cKDTree(fit.curve(np.linspace(0, 1, 60_000))).query(points)[0].max()
+    assert fit.max_distance == pytest.approx(far, abs=2e-3)
+
+
+RUNS = NoisyRuns(degree=3, noise=0.05, monitor=Monitor())
+
+
+def wave(n: int = 80, height: float = 6.0) -> np.ndarray:
+    """From (0, 0) to (40, 0), up at its beginning and down at its end, noise of 0.05."""
+    x = np.linspace(0, 40, n)
+    points = np.column_stack([x, height * np.sin(np.pi * x / 40)])
+    return points + np.random.default_rng(4).normal(0, 0.05, points.shape)
+
+
+def test_a_corner_is_moved_to_where_edge_and_run_cross():
+    # The edge's data end half a step short of the corner in (0, 0), the run begins where they end.
+    edge = DrawnLine(np.array([0.0, 30.0]), np.array([0.0, 0.4]))
+    run = FreeRun(np.concatenate([[edge.end], wave()[1:]]), (None, None))
+    moved = RUNS.meeting(Drawn((edge, run), (), is_told=True, n_unknowns=2), closed=False)
+    line, free = moved.parts
+    assert isinstance(line, DrawnLine)
+    assert isinstance(free, FreeRun)
+    # Three standard errors of a curve of ten points at its end, where it is least known.
+    assert np.hypot(*line.end) < 3 * 0.05
+    assert line.end[0] == 0.0  # on the level edge to the bit
+    assert np.array_equal(line.end, free.points[0])
+
+
+def test_a_corner_on_an_arc_stays_on_its_circle_and_turns_its_sweep():
+    arc = Arc((-10.0, 0.0), 10.0, -1.5, 1.46)
+    element = DrawnArc(arc, arc.begin, arc.end)
+    run = FreeRun(np.concatenate([[arc.end], wave()[1:]]), (None, None))
+    moved = RUNS.meeting(Drawn((element, run), (), is_told=True, n_unknowns=3), closed=False).parts[
+        0
+    ]
+    assert isinstance(moved, DrawnArc)
+    assert moved.arc.radius == 10.0
+    assert np.allclose(moved.arc.end, moved.end, atol=1e-12)
+    assert np.array_equal(moved.begin, arc.begin)
+    # The circle meets the wave in (0, 0), where it goes straight up.
+    assert np.hypot(*moved.end) < 3 * 0.05 + 0.1
+
+
+def test_corners_of_an_outline_that_is_its_own_image_stay_where_they_are():
+    edge = DrawnLine(np.array([0.0, 30.0]), np.array([0.0, 0.4]))
+    run = FreeRun(np.concatenate([[edge.end], wave()[1:]]), (None, None))
+    drawn = Drawn((edge, run), (Regularity("mirror", (0,), 0.0, 2),), is_told=True, n_unknowns=2)
+    assert RUNS.meeting(drawn, closed=False) is drawn
+
+
+def test_a_run_begins_and_ends_along_its_tangents():
+    u, v = np.array([0.9, 0.44]), np.array([0.9, -0.42])
+    u, v = u / np.hypot(*u), v / np.hypot(*v)
+    points = wave()
+    pieces = RUNS.smoothed(FreeRun(points, (u, v)))
+    begin = pieces[0].control_points[1] - pieces[0].control_points[0]
+    end = pieces[-1].control_points[-1] - pieces[-1].control_points[-2]
+    assert abs(begin[0] * u[1] - begin[1] * u[0]) < 1e-12 * np.hypot(*begin)
+    assert abs(end[0] * v[1] - end[1] * v[0]) < 1e-12 * np.hypot(*end)
+    assert np.array_equal(pieces[0].control_points[0], points[0])
+    assert np.array_equal(pieces[-1].control_points[-1], points[-1])
+
+
+def test_a_corner_within_a_run_stays_one():
+    # Two arches that meet in a cusp: a corner no line tells of.
+    arch = wave(height=25.0)
+    points = np.concatenate([arch, arch[1:] + np.array([40.0, 0.0])])
+    pieces = RUNS.smoothed(FreeRun(points, (None, None)))
+    assert len(pieces) == 2
+    # Known to some deviations and a part of a step, 1.1.
+    assert np.hypot(*(pieces[0].control_points[-1] - [40.0, 0.0])) < 3 * 0.05 + 0.3
