@@ -21,9 +21,9 @@ or an arc and which joints are tangent: of lines, of arcs, of corners, of the fi
 """
 
 PROFILES = """
-Profiles of straight edges and curves between corners (`python -m benchmarks.drawn.profiles`), half of
-ten draws level: how many fits have the profile's own edges and curves, and the distance to the truth
-over that of the fewest points, root mean squares.
+Profiles of straight edges and curves between corners (`python -m benchmarks.drawn.profiles`), half
+of ten draws level: how many fits have the profile's own edges and curves, and the distance to the
+truth over that of the fewest points, root mean squares.
 
 """
 

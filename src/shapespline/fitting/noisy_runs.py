@@ -55,9 +55,10 @@ class NoisyRuns:
                 if run.tangents[end] is not None or isinstance(other, FreeRun):
                     continue
                 crossing = self._crossing(run.points, end, other)
-                if crossing is not None:
+                moved = crossing and _ending_in(other, crossing.point, -1 - end)
+                if crossing is not None and moved is not None:
                     points = _ending_there(points, end, crossing)
-                    parts[m % n] = _ending_in(other, crossing.point, -1 - end)
+                    parts[m % n] = moved
             parts[k] = replace(run, points=points)
         return replace(drawn, parts=tuple(parts))
 
@@ -128,19 +129,21 @@ def _onto(element: DrawnLine | DrawnArc, node: FloatArray, point: FloatArray) ->
     return centre + element.arc.radius * away / np.hypot(*away)
 
 
-def _ending_in(element: DrawnLine | DrawnArc, node: FloatArray, end: int) -> DrawnLine | DrawnArc:
-    """An element with another first (0) or last (-1) point."""
+def _ending_in(
+    element: DrawnLine | DrawnArc, node: FloatArray, end: int
+) -> DrawnLine | DrawnArc | None:
+    """An element with another first (0) or last (-1) point; None if nothing is left of it."""
+    begin, last = (node, element.end) if end == 0 else (element.begin, node)
     if isinstance(element, DrawnLine):
-        return DrawnLine(node, element.end) if end == 0 else DrawnLine(element.begin, node)
+        return DrawnLine(begin, last) if (last - begin) @ _direction(element) > 0.0 else None
     arc, old = element.arc, element.begin if end == 0 else element.end
     (ux, uy), (vx, vy) = old - np.array(arc.centre), node - np.array(arc.centre)
     turn = float(np.arctan2(ux * vy - uy * vx, ux * vx + uy * vy))
     sweep = arc.sweep - turn if end == 0 else arc.sweep + turn
     if sweep * arc.sweep <= 0.0 or abs(sweep) >= FULL_TURN:
-        return element
+        return None
     start = arc.start_angle + turn if end == 0 else arc.start_angle
-    moved = Arc(arc.centre, arc.radius, start, sweep)
-    return DrawnArc(moved, node, element.end) if end == 0 else DrawnArc(moved, element.begin, node)
+    return DrawnArc(Arc(arc.centre, arc.radius, start, sweep), begin, last)
 
 
 def _lead(ends: FloatArray, direction: FloatArray) -> None:
