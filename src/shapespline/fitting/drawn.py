@@ -100,7 +100,7 @@ class DrawnPieces:
             mirrored = len(found.parts) == 1 or any(o.name == "mirror" for o in found.regularities)
             if symmetric and not mirrored and MirroredHalf.of(problem.thinned):
                 return
-            if not (noisy and of_picture and _has_runs(found)):  # that is smoothed with the rest
+            if not (noisy and _has_runs(found)):  # what chains of elements left is no run by itself
                 yield found
         if noisy and not (of_picture or symmetric):
             yield from problem.between_corners

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from shapespline.values import Piece
 
 # A corner is moved by no more than so many steps and the band of the noise to where a run and the
-# element beside it cross if continued (FIT-38).
-STEPS = 1.5
+# element beside it cross if continued, a step or that band from one of so many points (FIT-38).
+STEPS, NEAREST = 1.5, 4
 # So many points at an end of a run may be the element's beside it (FIT-38).
 UNCERTAIN = 1
 # Regularities of a whole outline, which corners that move one by one would break (FIT-38).
@@ -82,13 +82,18 @@ class NoisyRuns:
         node = points[end]
         if len(points) < 2 * (UNCERTAIN + self.degree + 1):
             return None
-        reach = STEPS * median(np.hypot(*np.diff(points, axis=0).T)) + NOISE_BAND * self.noise
+        step, band = median(np.hypot(*np.diff(points, axis=0).T)), NOISE_BAND * self.noise
+        reach = STEPS * step + band
         continued = self._runs(points[UNCERTAIN:-UNCERTAIN]).continued(end)
         crossing = crossing_of(continued, _expanded(element, node, reach))
         if crossing is None:
             return None
         met = _onto(element, node, crossing.point)
-        return crossing._replace(point=met) if np.hypot(*(met - node)) <= reach else None
+        near = points[:NEAREST] if end == 0 else points[-NEAREST:]
+        far = float(np.hypot(*(near - met).T).min())
+        if np.hypot(*(met - node)) > reach or far > max(step, band):
+            return None
+        return crossing._replace(point=met)
 
 
 def _ending_there(points: FloatArray, end: int, crossing: Crossing) -> FloatArray:
