@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import shapespline as ss
+from benchmarks.drawn.profiles import noisy_profile
 from benchmarks.figure_style import (
     BLUE,
     ENGINES,
@@ -306,6 +307,23 @@ def crossings_repaired() -> None:
     save(figure, ENGINES / "repairs-crossings.png")
 
 
+def estimation_profiles() -> None:
+    """Noisy points of a cover and a spade: the fewest points, and as they were drawn."""
+    figure, axes = canvas(14.0, 4.2, 4)
+    for pair, name, draw in ((axes[:2], "cover", 1), (axes[2:], "spade (aside)", 1)):
+        samplings = noisy_profile(name, draw, 10)
+        points = next(points for key, points, _ in samplings if key == (0.5, 1000))
+        for one, character in zip(pair, ("fewest", "drawn"), strict=True):
+            fit = ss.fit_curve(points, closed=True, character=character)
+            one.plot(*points.T, ".", ms=2.0, color=PALE)
+            if fit.sections:
+                draw_pieces(one, fit.sections, closed=True)
+            else:
+                one.plot(*fit.curve(np.linspace(0.0, 1.0, 1000)).T, color=RED, lw=2.0)
+            plane(one, f"{character}: {fit.n_stored_points} points, {len(fit.corners)} corners")
+    save(figure, ENGINES / "estimation-profiles.png")
+
+
 FIGURES = (
     pieces_stages,
     lawson_rounds,
@@ -313,6 +331,7 @@ FIGURES = (
     methods_convergence,
     stray_residuals,
     estimation_size,
+    estimation_profiles,
     crossings_repaired,
     certified_bounds,
 )
