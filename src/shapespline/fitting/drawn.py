@@ -17,7 +17,7 @@ from shapespline.engines.drawn import (
 from shapespline.engines.pieces import MirroredHalf
 from shapespline.fitting.choose import DRAWN, FEW_DRAWN
 from shapespline.fitting.estimate import DRAWN_DEARER
-from shapespline.fitting.noisy_runs import NoisyRuns
+from shapespline.fitting.measured_runs import MeasuredRuns
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.verify import Candidate
 from shapespline.geometry import joined, two_sided_distance
@@ -126,9 +126,9 @@ class DrawnPieces:
         """Pieces in the working unit, none where a run was not fitted; and what they keep."""
         pieces: list[Piece] = []
         place: dict[int, int] = {}
-        noisy = self._noisy(problem, monitor)
-        if noisy is not None:
-            found = noisy.meeting(found, closed=problem.contour.closed)
+        measured = self._measured(problem, monitor)
+        if measured is not None:
+            found = measured.meeting(found, closed=problem.contour.closed)
         for k, part in enumerate(found.parts):
             place[k] = len(pieces)
             if isinstance(part, DrawnLine):
@@ -139,8 +139,8 @@ class DrawnPieces:
             elif isinstance(part, DrawnArc):
                 pieces.append(Piece.of_arc(part.arc, within, begin=part.begin, end=part.end))
             else:
-                if noisy is not None:
-                    pieces += noisy.smoothed(part)
+                if measured is not None and not measured.clean:
+                    pieces += measured.smoothed(part)
                     continue
                 run = Contour.silently(part.points, False)
                 asked = problem.request.part(run, within, part.tangents)
@@ -156,12 +156,13 @@ class DrawnPieces:
         ]
         return tuple(pieces), kept
 
-    def _noisy(self, problem: Problem, monitor: Monitor) -> NoisyRuns | None:
-        """What smooths free-form runs of noisy points; None of others."""
-        if self.estimation is None or self.estimation.shown.clean:
+    def _measured(self, problem: Problem, monitor: Monitor) -> MeasuredRuns | None:
+        """What free-form runs of measured points meet, without a tolerance; None of pictures."""
+        if self.estimation is None or problem.contour.level_line is not None:
             return None
-        noise = self.estimation.means.noise * problem.upright.scale
-        return NoisyRuns(problem.request.style.degree, noise, monitor)
+        clean, scale = self.estimation.shown.clean, problem.upright.scale
+        noise = (self.estimation.shown if clean else self.estimation.means).noise * scale
+        return MeasuredRuns(problem.request.style.degree, noise, monitor, clean=clean)
 
     def _needs_no_other(self, cost: float) -> bool:
         """Whether one spline costs so much more that no curves between corners need be tried."""

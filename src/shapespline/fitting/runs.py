@@ -220,6 +220,12 @@ class Crossing(NamedTuple):
     before: FloatArray
     after: FloatArray
 
+    @property
+    def turn(self) -> float:
+        """Angle between the curves, radians, whichever way they go."""
+        (ux, uy), (vx, vy) = self.before, self.after
+        return float(np.arctan2(abs(ux * vy - uy * vx), abs(ux * vx + uy * vy)))
+
 
 def crossing_of(before: FloatArray, after: FloatArray) -> Crossing | None:
     """Where two polynomials cross near 0, None if they do not; coefficients (k, 2) each."""

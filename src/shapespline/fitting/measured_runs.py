@@ -1,4 +1,4 @@
-"""Free-form runs of noisy points between lines and arcs: where they meet these, and smoothed."""
+"""Free-form runs of measured points beside lines and arcs: where they meet; noise smoothed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.analysis import NOISE_BAND
+from shapespline.analysis import LEAST_TURN, NOISE_BAND
 from shapespline.engines.drawn import DrawnArc, DrawnLine, FreeRun
 from shapespline.fitting.runs import Runs, crossing_of
 from shapespline.validation import median
@@ -30,12 +30,16 @@ WHOLE = ("mirror", "rotation")
 
 
 @dataclass(frozen=True)
-class NoisyRuns:
-    """What smooths them: the degree, the noise of the points, in their unit."""
+class MeasuredRuns:
+    """What smooths them: the degree, the noise of the points, in their unit.
+
+    ``clean`` points tell by themselves where a run goes on.
+    """
 
     degree: int
     noise: float
     monitor: Monitor
+    clean: bool = False
 
     def meeting(self, drawn: Drawn, *, closed: bool) -> Drawn:
         """The same with corners where runs and elements cross if both are continued.
@@ -84,9 +88,10 @@ class NoisyRuns:
             return None
         step, band = median(np.hypot(*np.diff(points, axis=0).T)), NOISE_BAND * self.noise
         reach = STEPS * step + band
-        continued = self._runs(points[UNCERTAIN:-UNCERTAIN]).continued(end)
+        inner = points[UNCERTAIN:-UNCERTAIN]
+        continued = _through(inner, end) if self.clean else self._runs(inner).continued(end)
         crossing = crossing_of(continued, _expanded(element, node, reach))
-        if crossing is None:
+        if crossing is None or crossing.turn < LEAST_TURN:
             return None
         met = _onto(element, node, crossing.point)
         near = points[:NEAREST] if end == 0 else points[-NEAREST:]
@@ -94,6 +99,12 @@ class NoisyRuns:
         if np.hypot(*(met - node)) > reach or far > max(step, band):
             return None
         return crossing._replace(point=met)
+
+
+def _through(points: FloatArray, end: int) -> FloatArray:
+    """Coefficients of the cubic through the first (0) or last (-1) four points, by their number."""
+    row = points[:4] if end == 0 else points[-4:]
+    return np.polynomial.polynomial.polyfit(np.arange(4.0) + min(3 * end, 0), row, 3)
 
 
 def _ending_there(points: FloatArray, end: int, crossing: Crossing) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Free-form runs of noisy points: edges stay straight, corners sharp and in their place."""
+"""Free-form runs of measured points: edges stay straight, corners sharp and in their place."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from benchmarks.drawn.profiles import PROFILES, noisy_profile
-from benchmarks.drawn.truth import Line
+from benchmarks.drawn.truth import Line, sampled
 from scipy.spatial import cKDTree
 
 import shapespline as ss
 from shapespline.engines.drawn import Drawn, DrawnArc, DrawnLine, FreeRun
-from shapespline.fitting.noisy_runs import NoisyRuns
+from shapespline.fitting.measured_runs import MeasuredRuns
 from shapespline.monitor import Monitor
 from shapespline.values import Arc, Regularity
 
@@ -71,7 +71,7 @@ def test_the_curve_is_one_without_gaps_and_both_distances_are_measured():
     assert fit.max_distance == pytest.approx(far, abs=2e-3)
 
 
-RUNS = NoisyRuns(degree=3, noise=0.05, monitor=Monitor())
+RUNS = MeasuredRuns(degree=3, noise=0.05, monitor=Monitor())
 
 
 def wave(n: int = 80, height: float = 6.0) -> np.ndarray:
@@ -138,3 +138,18 @@ def test_a_corner_within_a_run_stays_one():
     assert len(pieces) == 2
     # Known to some deviations and a part of a step, 1.1.
     assert np.hypot(*(pieces[0].control_points[-1] - [40.0, 0.0])) < 3 * 0.05 + 0.3
+
+
+@pytest.mark.parametrize("name", ["knife", "lute", "saddle (aside)"])
+def test_corners_between_clean_points_are_where_edge_and_curve_cross(name):
+    # A short line cut each corner that no point happened to lie in, up to a step away from it.
+    outline = PROFILES[name]
+    points = ss.Contour(sampled(outline, 0.01), closed=True).resampled(200).points
+    fit = ss.fit_curve(points, closed=True)
+    step = float(np.hypot(*np.diff(points, axis=0).T).mean())
+    nodes = cKDTree([piece.control_points[0] for piece in fit.pieces])
+    edges = [one for one in outline if isinstance(one, Line)]
+    off = nodes.query([end for one in edges for end in (one.begin, one.end)])[0]
+    # The fourth difference of the cubics at the step leaves less than a hundredth of it.
+    assert off.max() < 0.01 * step
+    assert min(piece.polygon_length for piece in fit.pieces) > 2.0 * step
