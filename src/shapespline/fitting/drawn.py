@@ -191,7 +191,8 @@ class DrawnPieces:
             if accuracy > ONE_BIT * step:
                 found = found.beside(candidate.pieces)
         elif len(candidate.pieces) > 1:
-            beyond = max(beyond, step)  # corners lie between points
+            # Corners lie between points, those of a right angle half a step from their chord.
+            beyond = max(beyond, step if not _has_runs(drawn) or shown.clean else 0.5 * step)
         if found.max_distance > farthest or found.reverse_distance > beyond:
             return None
         # What is left of a picture's slow errors is no noise.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -71,6 +72,7 @@ def test_the_curve_is_one_without_gaps_and_both_distances_are_measured():
     assert fit.max_distance == pytest.approx(far, abs=2e-3)
 
 
+OUTLINES = Path(__file__).parents[3] / "examples" / "data" / "outlines"
 RUNS = MeasuredRuns(degree=3, noise=0.05, monitor=Monitor())
 
 
@@ -153,3 +155,13 @@ def test_corners_between_clean_points_are_where_edge_and_curve_cross(name):
     # The fourth difference of the cubics at the step leaves less than a hundredth of it.
     assert off.max() < 0.01 * step
     assert min(piece.polygon_length for piece in fit.pieces) > 2.0 * step
+
+
+def test_directions_that_noise_hides_tell_no_drawing():
+    # Sides of fingers, level to two degrees, were taken for drawn, with 14 corners, some on tips.
+    (hand,) = ss.read(OUTLINES / "hand620_closed.csv")
+    points = hand.resampled(300).points
+    points = points + np.random.default_rng(1).normal(0, 0.002 * hand.box_diagonal, points.shape)
+    fit = ss.fit_curve(points, closed=True)
+    assert fit.method != "drawn"
+    assert len(fit.corners) < 14

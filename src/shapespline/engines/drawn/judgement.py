@@ -38,10 +38,10 @@ LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH, LITTLE_FREE = 0.2, 0.65, 0.5, 0.1
 # A line from corner to corner was drawn, whatever it repeats, if no arc of a radius below so many
 # pixels lies as near to it (DRA-40).
 PLAIN = 900.0
-# That a line's direction is another's, or level, says something if it is known to so many radians;
-# those of many lines do if all together are a surprise by so many nats (DRA-42).
+# That a line's direction is another's, or level, says something if it is known to so many radians
+# (DRA-42).
 DIRECTED = ("axis-parallel", "parallel", "perpendicular", "collinear")
-KNOWN_DIRECTION, LEAST_SURPRISE = float(np.radians(0.7)), 15.0
+KNOWN_DIRECTION = float(np.radians(0.7))
 # So few elements and nothing else may be what was drawn though they keep no regularities (DRA-17).
 FEW_ELEMENTS = 12
 # Between its nodes an element has at least this part of the length of its data.
@@ -240,16 +240,11 @@ def repeated(model: Model, found: list[Regularity]) -> float:
 def tell_by_direction(model: Model, found: list[Regularity]) -> bool:
     """Whether most elements are lines that are level, parallel or square, and known to be so.
 
-    Two parallel edges tell of each other; among much noise any directions agree, but not those of
-    many edges (DRA-42).
+    Two parallel edges tell of each other; among much noise any directions agree (DRA-42).
     """
     speak = {k for one in found if one.name in DIRECTED for k in one.pieces}
-    errors = [_direction_error(model, k) for k in speak]
-    least = LEAST_SAID * len(model.at)
-    # Nats by which it is a surprise that a direction is within three standard errors of another.
-    surprise = sum(max(0.0, float(np.log(np.pi / 2 / (6.0 * error)))) for error in errors)
-    known = sum(error <= KNOWN_DIRECTION for error in errors)
-    return known >= least or (len(speak) >= least and surprise >= LEAST_SURPRISE)
+    known = sum(_direction_error(model, k) <= KNOWN_DIRECTION for k in speak)
+    return known >= LEAST_SAID * len(model.at)
 
 
 def _direction_error(model: Model, k: int) -> float:
