@@ -10,7 +10,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from benchmarks.fuzz.child import calls_library
+from benchmarks.fuzz.child import calls_library, outcome
 from benchmarks.fuzz.mutate import mutated
 from benchmarks.fuzz.seeds import endings, sound
 
@@ -36,10 +36,15 @@ def fuzzed(ending: str, first: int, seconds: float) -> tuple[Counter[str], dict[
         if done.returncode:
             # A library that dies, or does not come back, takes the process along.
             innermost = INNERMOST.findall(done.stderr)
-            counts["library" if innermost and calls_library(innermost[0]) else "FAULT"] += 1
             last = int(begun[-1]) if begun else seed
+            kind = "library" if innermost and calls_library(innermost[0]) else "FAULT"
             where = f" in {innermost[0]}" if innermost else ""
             faults.setdefault(f"the process ended with {done.returncode}{where}", last)
+            # What users see of a death: a sentence, since files are read apart.
+            if kind == "library" and done.returncode < 0:
+                kind = outcome(mutated(sound(ending), ending, last), ending)
+                kind = "FAULT" if kind.startswith("FAULT") else "library"
+            counts[kind] += 1
         seed = int(begun[-1]) + 1 if begun else seed + 1
     return counts, faults
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
+from importlib.util import find_spec
 
 
 class ShapesplineError(Exception):
@@ -96,13 +97,31 @@ pip install "shapespline[dxf]"
     try:
         import_module(module)
     except ModuleNotFoundError as error:
-        raise MissingExtraError(
-            f'{said} the extra {extra}: pip install "shapespline[{extra}]"'
-        ) from error
+        raise _missing(extra, said) from error
     except ImportError as error:  # there, but a library of the system is not
         raise MissingExtraError(
             f"{said} {module}, which is installed and cannot be loaded: {error}"
         ) from error
+
+
+def require_installed(module: str, extra: str, said: str) -> None:
+    """Raise unless the package of a module is there, which is not imported.
+
+    Parameters
+    ----------
+    module, extra, said : str
+        As for `require`.
+
+    Raises
+    ------
+    MissingExtraError
+    """
+    if find_spec(module.partition(".")[0]) is None:
+        raise _missing(extra, said)
+
+
+def _missing(extra: str, said: str) -> MissingExtraError:
+    return MissingExtraError(f'{said} the extra {extra}: pip install "shapespline[{extra}]"')
 
 
 def caller_level() -> int:

@@ -246,7 +246,8 @@ def test_a_format_of_a_missing_extra_is_refused_before_any_work(monkeypatch, tmp
     for entry in needed:
         module, extra = entry.needs
         with monkeypatch.context() as without:
-            without.setitem(sys.modules, module, None)
+            for name in (module.partition(".")[0], module):
+                without.setitem(sys.modules, name, None)
             said = rf'need the extra {extra}: pip install "shapespline\[{extra}\]"'
             path = tmp_path / f"x{entry.suffixes[0]}"
             with pytest.raises(MissingExtraError, match=said):

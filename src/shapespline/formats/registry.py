@@ -25,10 +25,12 @@ from shapespline.errors import (
     UnknownFormatError,
     caller_level,
     require,
+    require_installed,
 )
 from shapespline.formats.atomic import check_target, write_atomically
 from shapespline.formats.known import known_options, option_names
 from shapespline.formats.objects import read_object
+from shapespline.formats.reader_process import Question, read_apart
 from shapespline.formats.sources import as_path
 from shapespline.geometry import Outlines, as_drawing, exact_drawing, in_unit
 
@@ -52,6 +54,9 @@ __all__ = [
     "write",
 ]
 
+# Extras whose libraries some damaged files end: these are read in a process of their own (FMT-16).
+APART = frozenset({"cad", "rhino"})
+
 
 @dataclass(frozen=True)
 class Format:
@@ -64,6 +69,11 @@ class Format:
     writes: bool = False
     arcs: bool = True
     needs: tuple[str, str] | None = None  # a module, and the extra that brings it
+
+    @property
+    def required(self) -> tuple[tuple[str, str, str], ...]:
+        """What it needs, as `require` takes it."""
+        return () if self.needs is None else ((*self.needs, f"{self.name} files need"),)
 
 
 FORMATS = (
@@ -208,11 +218,15 @@ def _read(
     """What the format's reader finds, finished; errors name the file."""
     if path.is_dir():
         raise FormatError(f"cannot read {path}: it is a folder; name a file in it")
-    reader = _function(path, "read")
+    entry, reader = _entry(path, "read"), _function(path, "read")
     arguments = _checked(path, reader, given)
     try:
         _check_source(path)
-        found = reader(path, **arguments)
+        if entry.needs is not None and entry.needs[1] in APART:
+            question = Question(reader.__module__, entry.required, path.absolute(), arguments)
+            found = read_apart(question)
+        else:
+            found = reader(path, **arguments)
         return finish(cast("Shape | Outlines | Drawing", found))
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}") from error
@@ -337,20 +351,28 @@ def writable() -> tuple[str, ...]:
     return tuple(sorted(suffix for entry in FORMATS if entry.writes for suffix in entry.suffixes))
 
 
-def _function(path: Path, name: str) -> Callable[..., object]:
-    """Return the ``read`` or ``encode`` of the module registered for a file's ending."""
+def _entry(path: Path, name: str) -> Format:
+    """The line of a file's ending whose module has ``read`` or ``encode``."""
     suffix = path.suffix.lower()
     for entry in FORMATS:
         if suffix in entry.suffixes and (entry.reads if name == "read" else entry.writes):
-            if entry.needs is not None:
-                require(*entry.needs, f"{entry.name} files need")
-            module = import_module(f"shapespline.formats.{entry.module}")
-            return cast("Callable[..., object]", getattr(module, name))
+            return entry
     role, verb, known = (
         ("reader", "readable", readable()) if name == "read" else ("writer", "writable", writable())
     )
     ending = f"for {path.suffix!r}" if suffix else "for a name without an ending"
     raise UnknownFormatError(f"{path.name}: no {role} {ending}; {verb} endings: {' '.join(known)}")
+
+
+def _function(path: Path, name: str) -> Callable[..., object]:
+    """Return the ``read`` or ``encode`` of the module registered for a file's ending."""
+    entry = _entry(path, name)
+    for module, extra, said in entry.required:
+        # What is read apart is imported there.
+        apart = name == "read" and extra in APART
+        (require_installed if apart else require)(module, extra, said)
+    found = import_module(f"shapespline.formats.{entry.module}")
+    return cast("Callable[..., object]", getattr(found, name))
 
 
 def _checked(
