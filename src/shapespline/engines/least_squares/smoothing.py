@@ -9,7 +9,11 @@ import numpy as np
 from shapespline.analysis import NOISE_BAND, resolution
 from shapespline.engines.least_squares.losses import counted
 from shapespline.engines.least_squares.problem import CurveProblem
-from shapespline.engines.least_squares.starts.equidistribution import Balanced, balanced_start
+from shapespline.engines.least_squares.starts.equidistribution import (
+    Balanced,
+    balanced_start,
+    bending_parameters,
+)
 from shapespline.engines.least_squares.trusted import trusted_start
 from shapespline.solvers import Limits
 from shapespline.values import Contour
@@ -98,13 +102,23 @@ def sizes_tried(
             return [straight_line(contour, noise)]
         return [smoothed_to(size, contour, degree, noise, None, loss, monitor=monitor)]
     tried: list[Smoothed] = []
+    known: dict[int, Smoothed] = {}
+    begin = bending_parameters(contour)
+
+    def of_size(size: int) -> Smoothed:
+        if size not in known:
+            known[size] = smoothed_to(
+                size, contour, degree, noise, weights, loss, begin=begin, monitor=monitor
+            )
+        return known[size]
+
     if not contour.closed and weights is None and loss is None:
         tried.append(straight_line(contour, noise))
     least = tried[0].cost if tried else np.inf
     most = max(degree + 1, int(LARGEST_PART * len(contour)))
     size, misses = degree + 1, 0
     while size <= most and (size <= AT_LEAST or misses < PATIENCE):
-        found = smoothed_to(size, contour, degree, noise, weights, loss, monitor=monitor)
+        found = of_size(size)
         tried.append(found)
         least, misses = (found.cost, 0) if found.cost < least else (least, misses + 1)
         size = max(size + 1, round(SIZE_FACTOR * size))
@@ -113,7 +127,7 @@ def sizes_tried(
     middle = cheapest(tried).n_control_points
     for size in range(round(middle / SIZE_FACTOR) + 1, round(middle * SIZE_FACTOR)):
         if degree < size <= most and (size - middle) % max(1, round(FINEST * middle)) == 0:
-            tried.append(smoothed_to(size, contour, degree, noise, weights, loss, monitor=monitor))
+            tried.append(of_size(size))
             if monitor.ends(size):
                 break
     return tried
@@ -127,13 +141,24 @@ def smoothed_to(
     weights: FloatArray | None = None,
     loss: Loss | None = None,
     *,
+    begin: FloatArray | None = None,
     monitor: Monitor,
 ) -> Smoothed:
-    """The least-squares spline with so many control points, more than its degree."""
+    """The least-squares spline with so many control points, more than its degree.
+
+    ``begin`` are the parameters of all points to begin with, by how they bend if not given.
+    """
 
     def make(points: Contour, weights: FloatArray | None) -> Balanced:
         return balanced_start(
-            points, size, degree, weights, rounds=0, ends="fitted", ask=monitor.ends
+            points,
+            size,
+            degree,
+            weights,
+            rounds=0,
+            ends="fitted",
+            parameters=begin if points is contour else None,
+            ask=monitor.ends,
         )
 
     if loss is not None:

@@ -57,6 +57,7 @@ def balanced_start(
     rounds: int = ROUNDS,
     *,
     ends: str = "fixed",
+    parameters: FloatArray | None = None,
     ask: Callable[[int], bool] = go_on,
 ) -> Balanced:
     """The best of a few short fits, each balanced by the errors of the one before.
@@ -73,13 +74,16 @@ def balanced_start(
         Times that the parameters are spread again.
     ends : {"fixed", "fitted"}
         Of an open contour; see `CurveProblem`.
+    parameters : ndarray, shape (n,), optional
+        Of the points, to begin with; as `bending_parameters` places them if not given.
     ask : callable
         Asked now and then whether to end with what there is, see `descend`.
     """
     middle = 0.5 * (contour.points.min(axis=0) + contour.points.max(axis=0))
     periodic = contour.closed
     knots = (periodic_knots if periodic else clamped_knots)(n_control_points, degree)
-    parameters = bending_parameters(contour)
+    if parameters is None:
+        parameters = bending_parameters(contour)
     solver = LevenbergMarquardt()
     best_cost = np.inf
     for round_ in range(rounds + 1):
