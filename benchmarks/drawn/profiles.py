@@ -1,4 +1,4 @@
-"""Noisy points of profiles: straight edges and free-form ones between corners.
+"""Points of profiles, straight edges and free-form ones between corners, with noise and without.
 
 Half of them were looked at while constants were chosen; the others, marked, were not. Each draw is
 turned by another angle, the first half of the draws are level.
@@ -22,6 +22,14 @@ if TYPE_CHECKING:
 
 # Samples of a fit, and the step of those of a drawing 100 wide.
 SAMPLES, STEP = 3000, 0.01
+# Tolerances over the box diagonal and numbers of points without noise, so many that corners between
+# them are near enough to their chords; a piece shorter than that part of it is none of a profile.
+CLEAN = (
+    *((None, n) for n in (200, 500, 2000)),
+    (0.001, 2000),
+    *((0.005, n) for n in (200, 500, 2000)),
+)
+BIT = 0.02
 
 
 def _outline(start: tuple[float, float], *steps: Sequence[tuple[float, float]]) -> Outline:
@@ -123,6 +131,37 @@ def profiles_table(draws: int = 10) -> str:
     return "".join(f"| {line} |\n" for line in lines)
 
 
+def clean_profile(name: str, draw: int, draws: int, n: int) -> ss.Contour:
+    """Points without noise that begin anywhere, so that corners lie between them."""
+    random = np.random.default_rng(draw)
+    turn = 0.0 if draw < draws / 2 else float(random.uniform(0.0, 2.0 * np.pi))
+    own = [one.moved(1.0, turn, np.zeros(2)) for one in PROFILES[name]]
+    dense = sampled(own, STEP)
+    dense = np.roll(dense, int(random.integers(len(dense))), axis=0)
+    return ss.Contour(dense, closed=True).resampled(n)
+
+
+def clean_table(draws: int = 10) -> str:
+    """Points without noise: how many fits have the profile's edges and curves, and no bit more."""
+    heads = [f"{f'{100 * within:g} %' if within else 'none'}, {n}" for within, n in CLEAN]
+    lines = ["profile, edges | " + " | ".join(heads), "|".join(["---"] * (1 + len(heads)))]
+    for name, outline in PROFILES.items():
+        edges = sum(isinstance(one, Line) for one in outline)
+        cells = []
+        for within, n in CLEAN:
+            right = 0
+            for draw in range(draws):
+                contour = clean_profile(name, draw, draws, n)
+                size = contour.box_diagonal
+                fit = ss.fit_curve(contour, tolerance=within and within * size)
+                found = [piece.kind for piece in fit.pieces]
+                bits = any(piece.polygon_length < BIT * size for piece in fit.pieces)
+                right += found.count("line") == edges and "arc" not in found and not bits
+            cells.append(str(right))
+        lines.append(f"{name}, {edges} | " + " | ".join(cells))
+    return "".join(f"| {line} |\n" for line in lines)
+
+
 def _far(fit: ss.Fit, tree: cKDTree) -> float:
     """Root mean square distance of a curve from the truth."""
     distances = tree.query(fit.curve(np.linspace(0.0, 1.0, SAMPLES)))[0]
@@ -131,3 +170,4 @@ def _far(fit: ss.Fit, tree: cKDTree) -> float:
 
 if __name__ == "__main__":
     print(profiles_table())
+    print(clean_table())

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline.analysis import resolution
 from shapespline.engines.drawn import (
     ONE_BIT,
     DrawnArc,
@@ -126,7 +127,7 @@ class DrawnPieces:
         """Pieces in the working unit, none where a run was not fitted; and what they keep."""
         pieces: list[Piece] = []
         place: dict[int, int] = {}
-        measured = self._measured(problem, monitor)
+        measured = self._measured(problem, found, within, monitor)
         if measured is not None:
             found = measured.meeting(found, closed=problem.contour.closed)
         for k, part in enumerate(found.parts):
@@ -156,13 +157,24 @@ class DrawnPieces:
         ]
         return tuple(pieces), kept
 
-    def _measured(self, problem: Problem, monitor: Monitor) -> MeasuredRuns | None:
-        """What free-form runs of measured points meet, without a tolerance; None of pictures."""
-        if self.estimation is None or problem.contour.level_line is not None:
+    def _measured(
+        self, problem: Problem, found: Drawn, within: float, monitor: Monitor
+    ) -> MeasuredRuns | None:
+        """What free-form runs of measured points meet; None of pictures.
+
+        Within a tolerance where points are clean; without one noisy ones are smoothed.
+        """
+        if problem.contour.level_line is not None or not _has_runs(found):
             return None
-        clean, scale = self.estimation.shown.clean, problem.upright.scale
+        degree, scale = problem.request.style.degree, problem.upright.scale
+        if self.estimation is None:
+            shown = resolution(problem.seen)
+            if not shown.clean:
+                return None
+            return MeasuredRuns(degree, shown.noise, monitor, clean=True, within=within)
+        clean = self.estimation.shown.clean
         noise = (self.estimation.shown if clean else self.estimation.means).noise * scale
-        return MeasuredRuns(problem.request.style.degree, noise, monitor, clean=clean)
+        return MeasuredRuns(degree, noise, monitor, clean=clean)
 
     def _needs_no_other(self, cost: float) -> bool:
         """Whether one spline costs so much more that no curves between corners need be tried."""

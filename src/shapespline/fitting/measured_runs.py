@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 # A corner is moved by no more than so many steps and the band of the noise to where a run and the
 # element beside it cross if continued, a step or that band from one of so many points (FIT-38).
 STEPS, NEAREST = 1.5, 4
+# Within a tolerance a corner lies no farther than that part of it from the chords (FIT-40).
+KEPT = 0.9
 # So many points at an end of a run may be the element's beside it (FIT-38).
 UNCERTAIN = 1
 # Regularities of a whole outline, which corners that move one by one would break (FIT-38).
@@ -33,13 +35,15 @@ WHOLE = ("mirror", "rotation")
 class MeasuredRuns:
     """What smooths them: the degree, the noise of the points, in their unit.
 
-    ``clean`` points tell by themselves where a run goes on.
+    ``clean`` points tell by themselves where a run goes on; corners are ``within`` that distance
+    from the chords.
     """
 
     degree: int
     noise: float
     monitor: Monitor
     clean: bool = False
+    within: float = np.inf
 
     def meeting(self, drawn: Drawn, *, closed: bool) -> Drawn:
         """The same with corners where runs and elements cross if both are continued.
@@ -98,7 +102,17 @@ class MeasuredRuns:
         far = float(np.hypot(*(near - met).T).min())
         if np.hypot(*(met - node)) > reach or far > max(step, band):
             return None
+        if _from_chords(met, near) > KEPT * self.within:
+            return None
         return crossing._replace(point=met)
+
+
+def _from_chords(point: FloatArray, points: FloatArray) -> float:
+    """Distance of a point from the chords of a row."""
+    begin, along = points[:-1], np.diff(points, axis=0)
+    share = ((point - begin) * along).sum(axis=1) / (along**2).sum(axis=1)
+    away = begin + np.clip(share, 0.0, 1.0)[:, None] * along - point
+    return float(np.hypot(*away.T).min())
 
 
 def _through(points: FloatArray, end: int) -> FloatArray:

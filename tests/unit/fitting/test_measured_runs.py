@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from benchmarks.drawn.profiles import PROFILES, noisy_profile
+from benchmarks.drawn.profiles import PROFILES, clean_profile, noisy_profile
 from benchmarks.drawn.truth import Line, sampled
 from scipy.spatial import cKDTree
 
 import shapespline as ss
+from checks import distance_to_curve, distance_to_polyline, polyline_of
 from shapespline.engines.drawn import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.fitting.measured_runs import MeasuredRuns
 from shapespline.monitor import Monitor
@@ -165,3 +166,52 @@ def test_directions_that_noise_hides_tell_no_drawing():
     fit = ss.fit_curve(points, closed=True)
     assert fit.method != "drawn"
     assert len(fit.corners) < 14
+
+
+@pytest.mark.parametrize(
+    ("name", "n", "within", "draw"),
+    [
+        ("cover", 2000, 0.001, 1),
+        ("knife", 500, 0.005, 2),
+        ("saddle (aside)", 200, 0.005, 6),
+        ("flag", 2000, 0.005, 7),
+        ("spade (aside)", 2000, 0.001, 0),
+        ("knife", 500, None, 3),
+        ("saddle (aside)", 2000, None, 4),
+    ],
+)
+def test_clean_points_of_a_profile_give_its_own_edges_and_no_bits_beside(name, n, within, draw):
+    contour = clean_profile(name, draw, 10, n)
+    size = contour.box_diagonal
+    fit = ss.fit_curve(contour, tolerance=within and within * size)
+    kinds = [piece.kind for piece in fit.pieces]
+    assert kinds.count("line") == sum(isinstance(one, Line) for one in PROFILES[name])
+    assert "arc" not in kinds
+    assert min(piece.polygon_length for piece in fit.pieces) > 0.02 * size
+    if within:
+        far = distance_to_curve(contour.points, fit.curve, 1e-4 * size).max()
+        along = distance_to_polyline(polyline_of(fit.curve, 1e-4 * size), contour.polyline).max()
+        assert max(far, along) <= within * size
+
+
+def test_a_corner_that_a_tolerance_does_not_reach_stays_within_it():
+    # Half a step from the chords, five tolerances.
+    contour = clean_profile("saddle (aside)", 3, 10, 200)
+    within = 0.0005 * contour.box_diagonal
+    fit = ss.fit_curve(contour, tolerance=within)
+    along = distance_to_polyline(polyline_of(fit.curve, 0.1 * within), contour.polyline).max()
+    assert along <= within
+
+
+@pytest.mark.parametrize(("within", "moves"), [(np.inf, True), (0.5, True), (0.1, False)])
+def test_a_corner_is_moved_within_the_tolerance_only(within, moves):
+    # (0, 0) is 0.2 from the chord from the edge's last point to the run's first.
+    x = np.linspace(0.25, 40, 80)
+    edge = DrawnLine(np.array([0.0, 30.0]), np.array([0.0, 0.4]))
+    points = np.column_stack([x, 6 * np.sin(np.pi * x / 40)])
+    run = FreeRun(np.concatenate([[edge.end], points]), (None, None))
+    drawn = Drawn((edge, run), (), is_told=True, n_unknowns=2)
+    runs = MeasuredRuns(degree=3, noise=1e-9, monitor=Monitor(), clean=True, within=within)
+    end = runs.meeting(drawn, closed=False).parts[0].end
+    # Where they cross the cubic through four points is off by its fourth derivative.
+    assert np.allclose(end, (0, 0) if moves else (0, 0.4), atol=1e-4)

@@ -146,6 +146,8 @@ def cut_off(
 ) -> tuple[FloatArray, FloatArray]:
     """Where element k ends and m begins: in their node, or beside it where data are blunted."""
     far = away_from_data(model, k, node)
+    if far > NEAR_PART * tolerance and model.seen.whole is not None:  # those not looked at, too
+        far = min(far, _away_from_whole(model, k, node, model.seen.whole))
     turn = turn_at(model, k, m, node)
     if far <= NEAR_PART * tolerance or turn < SMOOTH_END:
         return node, node
@@ -174,8 +176,23 @@ def away_from_data(model: Model, k: int, node: FloatArray) -> float:
         around = points[np.arange(first, last) % (n - 1)]
     else:
         around = points[max(first, 0) : last]
-    x, y = (around[:-1] - node).T
-    u, v = (around[1:] - around[:-1]).T
+    return _from_chords(node, around)
+
+
+def _away_from_whole(model: Model, k: int, node: FloatArray, whole: FloatArray) -> float:
+    """The same of all points, those about the one that is looked at behind segment k."""
+    end = model.row.points[model.row.found[k].end]
+    nearest = int(((whole - end) ** 2).sum(axis=1).argmin())
+    reach = NEIGHBOURS * (len(whole) // len(model.seen.points) + 1)
+    index = np.arange(nearest - reach, nearest + reach + 1)
+    around = index % len(whole) if model.seen.closed else np.unique(index.clip(0, len(whole) - 1))
+    return _from_chords(node, whole[around])
+
+
+def _from_chords(node: FloatArray, points: FloatArray) -> float:
+    """Distance of a node from the chords of a row of points."""
+    x, y = (points[:-1] - node).T
+    u, v = (points[1:] - points[:-1]).T
     share = -(x * u + y * v) / np.maximum(u * u + v * v, 1e-300)
     share = np.minimum(np.maximum(share, 0.0), 1.0)
     return float(np.hypot(x + share * u, y + share * v).min())

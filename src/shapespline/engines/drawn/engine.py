@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.engines.drawn.beginnings import without_beginnings
 from shapespline.engines.drawn.between_corners import rows_between_corners
 from shapespline.engines.drawn.ends import (
     SMOOTH_END,
@@ -18,7 +19,7 @@ from shapespline.engines.drawn.ends import (
     nodes_of,
     sweep_of,
 )
-from shapespline.engines.drawn.estimated import MOST_WRONG, Estimated, estimated, settled
+from shapespline.engines.drawn.estimated import MOST_WRONG, Estimated, begun, estimated, settled
 from shapespline.engines.drawn.fillets import rows_with_fillets
 from shapespline.engines.drawn.joints import direction_at
 from shapespline.engines.drawn.judgement import (
@@ -217,8 +218,9 @@ def _of_row(
             as_read = as_read or free_runs(repeated_row) <= free_runs(model.row)
             break
     if best is None or not (best.told or is_short(best.model)):
-        return None
-    return None if whole and not as_read else best
+        fewer = without_beginnings(row, seen)
+        return None if fewer is row else _of_row(seen, fewer, ends, tolerance, whole=whole)
+    return None if whole and not as_read else begun(best, tolerance)
 
 
 def _cheapest(best: Estimated, row: Segments) -> Estimated:

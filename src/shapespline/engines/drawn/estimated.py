@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
+from shapespline.engines.drawn.beginnings import without_beginnings
 from shapespline.engines.drawn.ends import NEIGHBOURS, nodes_of, on_between
 from shapespline.engines.drawn.joints import turn_at
 from shapespline.engines.drawn.judgement import (
@@ -106,6 +107,17 @@ def settled(best: Estimated, tolerance: float) -> Estimated:
     if other is None or other.model.row is not row or other.cost >= best.cost:
         return best
     return other
+
+
+def begun(best: Estimated, tolerance: float) -> Estimated:
+    """The estimate without elements that are the beginning of a free-form run, if that holds."""
+    row = without_beginnings(best.model.row, best.model.seen)
+    if row is best.model.row:
+        return best
+    other = estimated(best.model, row, tolerance)
+    if other is None or other.model.row is not row:
+        return best
+    return settled(other, tolerance)._replace(told=best.told)
 
 
 def _joint_prices(model: Model) -> Iterator[float]:

@@ -53,6 +53,8 @@ class Observed:
         0 for measured points.
     apart : float
         Pixels from one independent sample to the next.
+    whole : ndarray, optional
+        All points, of which so many are looked at.
     """
 
     points: FloatArray
@@ -62,6 +64,7 @@ class Observed:
     floor: float
     pixel: float
     apart: float = 1.0
+    whole: FloatArray | None = None
 
     @classmethod
     def of(cls, contour: Contour, accuracy: float | None) -> Observed:
@@ -83,13 +86,14 @@ class Observed:
         deviation = max(noise_level(Contour.trusted(points, closed, exact)), LAST_DIGIT * extent)
         k = neighbours_to_average(points, closed, deviation)
         every = len(points) // (max(k, 1) * MOST_POINTS)
+        whole = None
         if k == 1 and every > 1:
-            points = _thinned(points, closed, every)
+            points, whole = _thinned(points, closed, every), points
         if k > 1:
             points = means_of(points, k)
             deviation = max(deviation / k**0.5, LAST_DIGIT * extent)
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
-        return cls(points, closed, deviation, deviation, 0.0, 0.0)
+        return cls(points, closed, deviation, deviation, 0.0, 0.0, whole=whole)
 
     def rougher(self, factor: float) -> Observed:
         """The same of a picture so many times less exact than its kind is."""

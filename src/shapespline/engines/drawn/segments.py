@@ -19,7 +19,7 @@ LINE, ARC, FREE = 0, 1, 2
 PRICE, SMOOTH = 4.0, 0.14
 # A free-form curve counts as so many parameters (DRA-01), among independent points as more: its
 # twelve coefficients follow their noise (DRA-15).
-FREE_PARAMETERS, FREE_OF_POINTS, ARC_PARAMETERS = 5.0, 6.5, 3.0
+FREE_PARAMETERS, FREE_OF_POINTS, ARC_PARAMETERS, LINE_PARAMETERS = 5.0, 6.5, 3.0, 2.0
 # Prices of joints in those of a parameter: what is seldom drawn costs, or smooth chains of arcs
 # follow anything (DRA-01).
 LINE_LINE_SMOOTH, ARC_ARC_SMOOTH, ARC_ARC_CORNER = 2.0, 2.5, 0.5
@@ -44,6 +44,8 @@ FREE_PARTS, FREE_STEP = 160, 4
 # Neighbouring lines that one line explains are one: systematic errors of a picture broke them. So
 # many deviations in the mean and at most; an arc whose sagitta is under this many is a line.
 MEAN_MISFIT, LARGEST_MISFIT, FLAT = 2.2, 5.0, 2.5
+# Steps of a line that a point which is not its own broke off (DRA-44).
+FEW = 4
 FLAT_CHORD = 15.0
 # Radians that data turn at a corner, between chords of so many points.
 CORNER, CORNER_STEPS = 0.5, 4
@@ -229,7 +231,8 @@ def _weights(seen: Observed, stations: FloatArray) -> FloatArray:
 def _merged(row: Segments, seen: Observed) -> Segments:
     """Arcs too flat to tell as lines; lines that one line explains as one.
 
-    Of measured points only those beside such an arc, as independent errors break no line.
+    Of measured points only those beside such an arc, as independent errors break no line, and those
+    of a few points beside a free-form run, as the one in the corner may be that's (DRA-44).
     """
     sigma, points = seen.deviation, row.points
     flat = [s.kind == ARC and _is_flat(points, s, seen) for s in row.found]
@@ -239,8 +242,11 @@ def _merged(row: Segments, seen: Observed) -> Segments:
     k = 0
     while k + 1 < len(found):
         a, b = found[k], found[k + 1]
-        broken = a.kind == b.kind == LINE and (seen.pixel or flat[k] or flat[k + 1])
-        if broken and _on_one_line(points[a.begin + 2 : b.end - 1], sigma):
+        broken = seen.pixel or flat[k] or flat[k + 1]
+        for short, other in ((a, found[k - 1]), (b, found[(k + 2) % len(found)])):
+            broken = broken or (short.end - short.begin <= FEW and other.kind == FREE)
+        inner = points[a.begin + 2 : b.end - 1]
+        if a.kind == b.kind == LINE and broken and _on_one_line(inner, sigma):
             found[k : k + 2] = [Segment(a.begin, b.end, LINE)]
             flat[k : k + 2] = [True]
             k = max(k - 1, 0)

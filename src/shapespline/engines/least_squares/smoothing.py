@@ -101,17 +101,14 @@ def sizes_tried(
         if size <= degree:
             return [straight_line(contour, noise)]
         return [smoothed_to(size, contour, degree, noise, None, loss, monitor=monitor)]
-    tried: list[Smoothed] = []
-    known: dict[int, Smoothed] = {}
     begin = bending_parameters(contour)
 
     def of_size(size: int) -> Smoothed:
-        if size not in known:
-            known[size] = smoothed_to(
-                size, contour, degree, noise, weights, loss, begin=begin, monitor=monitor
-            )
-        return known[size]
+        return smoothed_to(
+            size, contour, degree, noise, weights, loss, begin=begin, monitor=monitor
+        )
 
+    tried: list[Smoothed] = []
     if not contour.closed and weights is None and loss is None:
         tried.append(straight_line(contour, noise))
     least = tried[0].cost if tried else np.inf
@@ -124,9 +121,10 @@ def sizes_tried(
         size = max(size + 1, round(SIZE_FACTOR * size))
         if monitor.ends(size):
             return tried
-    middle = cheapest(tried).n_control_points
+    middle, known = cheapest(tried).n_control_points, {one.n_control_points for one in tried}
     for size in range(round(middle / SIZE_FACTOR) + 1, round(middle * SIZE_FACTOR)):
-        if degree < size <= most and (size - middle) % max(1, round(FINEST * middle)) == 0:
+        fine = (size - middle) % max(1, round(FINEST * middle)) == 0
+        if degree < size <= most and fine and size not in known:
             tried.append(of_size(size))
             if monitor.ends(size):
                 break
