@@ -243,8 +243,9 @@ def _merged(row: Segments, seen: Observed) -> Segments:
     while k + 1 < len(found):
         a, b = found[k], found[k + 1]
         broken = seen.pixel or flat[k] or flat[k + 1]
-        for short, other in ((a, found[k - 1]), (b, found[(k + 2) % len(found)])):
-            broken = broken or (short.end - short.begin <= FEW and other.kind == FREE)
+        for short, m in ((a, k - 1), (b, k + 2)):
+            beside = found[m % len(found)] if seen.closed or 0 <= m < len(found) else short
+            broken = broken or (short.end - short.begin <= FEW and beside.kind == FREE)
         inner = points[a.begin + 2 : b.end - 1]
         if a.kind == b.kind == LINE and broken and _on_one_line(inner, sigma):
             found[k : k + 2] = [Segment(a.begin, b.end, LINE)]
