@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 STEPS, NEAREST = 1.5, 4
 # Within a tolerance a corner lies no farther than that part of it from the chords (FIT-40).
 KEPT = 0.9
+# A corner nearer to a point than that part of a step is that point (FIT-40).
+BETWEEN = 0.02
 # So many points at an end of a run may be the element's beside it (FIT-38).
 UNCERTAIN = 1
 # Regularities of a whole outline, which corners that move one by one would break (FIT-38).
@@ -67,8 +69,36 @@ class MeasuredRuns:
                 if crossing is not None and moved is not None:
                     points = _ending_there(points, end, crossing)
                     parts[m % n] = moved
-            parts[k] = replace(run, points=points)
+            parts[k] = replace(run, points=self._with_corners(points) if self.clean else points)
         return replace(drawn, parts=tuple(parts))
+
+    def _with_corners(self, points: FloatArray) -> FloatArray:
+        """A run of clean points with its corners that lie between two of them (FIT-40)."""
+        (x, y), (u, v) = np.diff(points[:-1], axis=0).T, np.diff(points[1:], axis=0).T
+        turns = np.arctan2(x * v - y * u, x * u + y * v)
+        # The chord across one turns at both of its ends.
+        places = 1 + np.flatnonzero(np.abs(turns[:-1] + turns[1:]) >= LEAST_TURN)
+        found = [(k + 1, self._corner_after(points, k)) for k in places.tolist()]
+        corners = [(at, corner) for at, corner in found if corner is not None]
+        if not corners:
+            return points
+        return np.insert(points, [at for at, _ in corners], [one for _, one in corners], axis=0)
+
+    def _corner_after(self, points: FloatArray, k: int) -> FloatArray | None:
+        """Where the run up to a point and from the next one on cross if continued."""
+        if not 3 <= k <= len(points) - 5:
+            return None
+        crossing = crossing_of(
+            _through(points[k - 3 : k + 1], -1), _through(points[k + 1 : k + 5], 0)
+        )
+        if crossing is None or crossing.turn < LEAST_TURN:
+            return None
+        point, chord = crossing.point, points[k : k + 2]
+        ahead = (point - chord[0]) @ crossing.before, (chord[1] - point) @ crossing.after
+        step = float(np.hypot(*(chord[1] - chord[0])))
+        if min(ahead) < BETWEEN * step or max(ahead) > STEPS * step:
+            return None
+        return point if _from_chords(point, chord) <= KEPT * self.within else None
 
     def smoothed(self, run: FreeRun) -> tuple[Piece, ...]:
         """Lines and splines of a run, from its first point to its last one, along its tangents."""

@@ -178,6 +178,7 @@ def test_directions_that_noise_hides_tell_no_drawing():
         ("spade (aside)", 2000, 0.001, 0),
         ("knife", 500, None, 3),
         ("saddle (aside)", 2000, None, 4),
+        ("spade (aside)", 200, None, 1),
     ],
 )
 def test_clean_points_of_a_profile_give_its_own_edges_and_no_bits_beside(name, n, within, draw):
@@ -215,3 +216,46 @@ def test_a_corner_is_moved_within_the_tolerance_only(within, moves):
     end = runs.meeting(drawn, closed=False).parts[0].end
     # Where they cross the cubic through four points is off by its fourth derivative.
     assert np.allclose(end, (0, 0) if moves else (0, 0.4), atol=1e-4)
+
+
+def tip(first: float, within: float) -> tuple[np.ndarray, np.ndarray]:
+    """A run of two arches that meet in (40, 0), sampled from ``first`` on, before and after."""
+    x = np.arange(first, 79.0)
+    points = np.column_stack([x, 12 * np.abs(np.sin(np.pi * x / 40))])
+    edge = DrawnLine(np.array([first, 30.0]), points[0])
+    runs = MeasuredRuns(degree=3, noise=1e-9, monitor=Monitor(), clean=True, within=within)
+    drawn = Drawn((edge, FreeRun(points, (None, None))), (), is_told=True, n_unknowns=2)
+    return points, runs.meeting(drawn, closed=False).parts[1].points
+
+
+def test_a_corner_within_a_run_of_clean_points_is_put_between_two_of_them():
+    points, found = tip(0.3, np.inf)
+    (k,) = np.flatnonzero((points[:-1, 0] < 40) & (points[1:, 0] > 40)) + 1
+    # Cubics over a step are off by some (pi / 40)^4 of the height.
+    assert np.allclose(found, np.insert(points, k, (40.0, 0.0), axis=0), atol=2e-3)
+
+
+@pytest.mark.parametrize(("first", "within"), [(0.0, np.inf), (0.3, 0.1)])
+def test_a_corner_that_is_a_point_or_beyond_the_tolerance_is_not_put_in(first, within):
+    # In (40, 0) itself; 0.4 from the chord between its neighbours.
+    points, found = tip(first, within)
+    assert np.array_equal(points[1:], found[1:])
+
+
+@pytest.mark.parametrize(("offset", "corners"), [(0.0, 0), (0.4, 1)])
+def test_a_corner_that_turns_as_its_curves_do_is_put_in_where_no_point_is(offset, corners):
+    x = np.arange(offset, 79.0) - 40
+    points = np.column_stack([x, 12 - 1.2 * np.maximum(x, 0) - x**2 / 200])
+    edge = DrawnLine(points[0] + [0, 30.0], points[0])
+    runs = MeasuredRuns(degree=3, noise=1e-9, monitor=Monitor(), clean=True)
+    drawn = Drawn((edge, FreeRun(points, (None, None))), (), is_told=True, n_unknowns=2)
+    assert len(runs.meeting(drawn, closed=False).parts[1].points) == len(points) + corners
+
+
+def test_no_corner_is_put_into_a_smooth_run():
+    x = np.linspace(0.2, 40, 13)
+    points = np.column_stack([x, 12 * np.sin(np.pi * x / 20)])  # up to 25 degrees a step
+    edge = DrawnLine(np.array([0.2, 30.0]), points[0])
+    runs = MeasuredRuns(degree=3, noise=1e-9, monitor=Monitor(), clean=True)
+    drawn = Drawn((edge, FreeRun(points, (None, None))), (), is_told=True, n_unknowns=2)
+    assert len(runs.meeting(drawn, closed=False).parts[1].points) == len(points)
