@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 STEPS, NEAREST = 1.5, 4
 # Within a tolerance a corner lies no farther than that part of it from the chords (FIT-40).
 KEPT = 0.9
+# Points that turn by more each are stairs or corners, which tell of no curve (FIT-40).
+MOST_BEND = np.radians(15.0)
 # A corner nearer to a point than that part of a step is that point (FIT-40).
 BETWEEN = 0.02
 # So many points at an end of a run may be the element's beside it (FIT-38).
@@ -88,9 +90,10 @@ class MeasuredRuns:
         """Where the run up to a point and from the next one on cross if continued."""
         if not 3 <= k <= len(points) - 5:
             return None
-        crossing = crossing_of(
-            _through(points[k - 3 : k + 1], -1), _through(points[k + 1 : k + 5], 0)
-        )
+        before, after = points[k - 3 : k + 1], points[k + 1 : k + 5]
+        if not (_bends_little(before) and _bends_little(after)):
+            return None
+        crossing = crossing_of(_through(before, -1), _through(after, 0))
         if crossing is None or crossing.turn < LEAST_TURN:
             return None
         point, chord = crossing.point, points[k : k + 2]
@@ -123,6 +126,8 @@ class MeasuredRuns:
         step, band = median(np.hypot(*np.diff(points, axis=0).T)), NOISE_BAND * self.noise
         reach = STEPS * step + band
         inner = points[UNCERTAIN:-UNCERTAIN]
+        if self.clean and not _bends_little(inner[:4] if end == 0 else inner[-4:]):
+            return None
         continued = _through(inner, end) if self.clean else self._runs(inner).continued(end)
         crossing = crossing_of(continued, _expanded(element, node, reach))
         if crossing is None or crossing.turn < LEAST_TURN:
@@ -143,6 +148,12 @@ def _from_chords(point: FloatArray, points: FloatArray) -> float:
     share = ((point - begin) * along).sum(axis=1) / (along**2).sum(axis=1)
     away = begin + np.clip(share, 0.0, 1.0)[:, None] * along - point
     return float(np.hypot(*away.T).min())
+
+
+def _bends_little(points: FloatArray) -> bool:
+    """Whether a cubic through some points tells where their curve goes on: no corner is in them."""
+    (x, y), (u, v) = np.diff(points[:-1], axis=0).T, np.diff(points[1:], axis=0).T
+    return bool(np.abs(np.arctan2(x * v - y * u, x * u + y * v)).max() <= MOST_BEND)
 
 
 def _through(points: FloatArray, end: int) -> FloatArray:

@@ -16,7 +16,7 @@ from checks import distance_to_curve, distance_to_polyline, polyline_of
 from shapespline.engines.drawn import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.fitting.measured_runs import MeasuredRuns
 from shapespline.monitor import Monitor
-from shapespline.values import Arc, Regularity
+from shapespline.values import Arc, Contour, Regularity
 
 
 def noisy(name: str, noise: float, n: int, draw: int) -> tuple[np.ndarray, np.ndarray]:
@@ -179,6 +179,10 @@ def test_directions_that_noise_hides_tell_no_drawing():
         ("knife", 500, None, 3),
         ("saddle (aside)", 2000, None, 4),
         ("spade (aside)", 200, None, 1),
+        # One edge or two of any direction: nothing but that they are straight to the last digit.
+        ("hull (aside)", 500, None, 7),
+        ("flag", 2000, None, 8),
+        ("lute", 200, None, 6),
     ],
 )
 def test_clean_points_of_a_profile_give_its_own_edges_and_no_bits_beside(name, n, within, draw):
@@ -259,3 +263,16 @@ def test_no_corner_is_put_into_a_smooth_run():
     runs = MeasuredRuns(degree=3, noise=1e-9, monitor=Monitor(), clean=True)
     drawn = Drawn((edge, FreeRun(points, (None, None))), (), is_told=True, n_unknowns=2)
     assert len(runs.meeting(drawn, closed=False).parts[1].points) == len(points)
+
+
+TREAD = [(0, 0), (3, 0)]
+
+
+def test_stairs_tell_of_no_corners_beyond_them():
+    # Three points a tread, corners between them: four in a row hold one.
+    stairs = [(3.0 * k + dx, -3.0 * k - dy) for k in range(6) for dx, dy in TREAD]
+    points = Contour.silently(np.array(stairs), closed=False).resampled(34).points
+    edge = DrawnLine(points[0] + [-30.0, 0.0], points[0])
+    runs = MeasuredRuns(degree=3, noise=1e-9, monitor=Monitor(), clean=True)
+    drawn = Drawn((edge, FreeRun(points, (None, None))), (), is_told=True, n_unknowns=2)
+    assert np.array_equal(runs.meeting(drawn, closed=False).parts[1].points, points)

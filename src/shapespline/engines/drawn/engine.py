@@ -25,6 +25,7 @@ from shapespline.engines.drawn.joints import direction_at
 from shapespline.engines.drawn.judgement import (
     LARGEST,
     is_enough,
+    is_plain,
     is_short,
     tell_by_direction,
     without_few,
@@ -219,7 +220,11 @@ def _of_row(
             break
     if best is None or not (best.told or is_short(best.model)):
         fewer = without_beginnings(row, seen)
-        return None if fewer is row else _of_row(seen, fewer, ends, tolerance, whole=whole)
+        again = None if fewer is row else _of_row(seen, fewer, ends, tolerance, whole=whole)
+        if again is not None or best is None or not is_plain(best.model):
+            return again
+        # Within a tolerance curves of fewer points may do.
+        best = best._replace(told=bool(np.isinf(tolerance)))
     return None if whole and not as_read else begun(best, tolerance)
 
 
@@ -232,7 +237,7 @@ def _cheapest(best: Estimated, row: Segments) -> Estimated:
     finer = segmented(seen, price=FINER * PRICE)
     if (finer.first, finer.found) != (row.first, row.found):
         other = _of_row(seen, finer, best.model.ends, np.inf, whole=False)
-        best = best if other is None else min(best, other, key=_whole_cost)
+        best = best if other is None else min(best, other, key=lambda one: one.whole_cost)
     while True:
         others = [best]
         for near in rows_nearby(best.model):
@@ -241,13 +246,9 @@ def _cheapest(best: Estimated, row: Segments) -> Estimated:
                 continue
             if other.told or is_short(other.model):
                 others.append(settled(other, np.inf))
-        if (cheapest := min(others, key=_whole_cost)) is best:
+        if (cheapest := min(others, key=lambda one: one.whole_cost)) is best:
             return best
         best = cheapest
-
-
-def _whole_cost(one: Estimated) -> float:
-    return one.whole_cost
 
 
 def _is_preferred(alike: Estimated, best: Estimated) -> bool:

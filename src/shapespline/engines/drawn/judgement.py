@@ -17,7 +17,7 @@ from shapespline.engines.drawn.ends import (
     off_by,
 )
 from shapespline.engines.drawn.joints import direction_at, turn_at
-from shapespline.engines.drawn.segments import ARC, CORNER, FREE, LINE
+from shapespline.engines.drawn.segments import ARC, CORNER, FREE, LINE, is_corner
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,6 +38,8 @@ LEAST_SHARE, LEAST_SAID, SAID_BY_TOUCH, LITTLE_FREE = 0.2, 0.65, 0.5, 0.1
 # A line from corner to corner was drawn, whatever it repeats, if no arc of a radius below so many
 # pixels lies as near to it (DRA-40).
 PLAIN = 900.0
+# Of exact points a line from corner to corner with so many steps is one (DRA-45).
+PLAIN_POINTS = 20
 # That a line's direction is another's, or level, says something if it is known to so many radians
 # (DRA-42).
 DIRECTED = ("axis-parallel", "parallel", "perpendicular", "collinear")
@@ -235,6 +237,19 @@ def repeated(model: Model, found: list[Regularity]) -> float:
             if one.name != "tangent":
                 speak.update(one.pieces)
     return (said + len(_plain_lines(model) - speak)) / n
+
+
+def is_plain(model: Model) -> bool:
+    """Whether most elements are lines from corner to corner of many exact points (DRA-45)."""
+    row, closed = model.row, model.seen.closed
+    plain = [
+        k
+        for k in model.at
+        if row.found[k].kind == LINE
+        and row.found[k].end - row.found[k].begin >= PLAIN_POINTS
+        and all(is_corner(row, at, closed) for at in row.found[k][:2])
+    ]
+    return model.seen.exact and len(plain) >= LEAST_SAID * len(model.at)
 
 
 def tell_by_direction(model: Model, found: list[Regularity]) -> bool:

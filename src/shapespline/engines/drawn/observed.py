@@ -55,6 +55,8 @@ class Observed:
         Pixels from one independent sample to the next.
     whole : ndarray, optional
         All points, of which so many are looked at.
+    exact : bool
+        Whether measured points have no noise but that of a table's last digits.
     """
 
     points: FloatArray
@@ -65,6 +67,7 @@ class Observed:
     pixel: float
     apart: float = 1.0
     whole: FloatArray | None = None
+    exact: bool = False
 
     @classmethod
     def of(cls, contour: Contour, accuracy: float | None) -> Observed:
@@ -93,7 +96,8 @@ class Observed:
             points = means_of(points, k)
             deviation = max(deviation / k**0.5, LAST_DIGIT * extent)
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
-        return cls(points, closed, deviation, deviation, 0.0, 0.0, whole=whole)
+        is_exact = k == 1 and deviation == LAST_DIGIT * extent
+        return cls(points, closed, deviation, deviation, 0.0, 0.0, whole=whole, exact=is_exact)
 
     def rougher(self, factor: float) -> Observed:
         """The same of a picture so many times less exact than its kind is."""

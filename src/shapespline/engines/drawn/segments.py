@@ -271,7 +271,7 @@ def supported(row: Segments, closed: bool) -> Segments:
         beside = [row.found[m] for m in about if 0 <= m < n and m != k]
         if segment.kind == FREE or any(other.kind != FREE for other in beside):
             continue
-        corners = [_is_corner(row, at, closed) for at in (segment.begin, segment.end)]
+        corners = [is_corner(row, at, closed) for at in (segment.begin, segment.end)]
         if segment.kind == ARC or not all(corners):
             found[k] = segment._replace(kind=FREE)
     row = row._replace(found=tuple(found))
@@ -279,7 +279,7 @@ def supported(row: Segments, closed: bool) -> Segments:
     return row.turned(whole) if closed else row
 
 
-def _is_corner(row: Segments, at: int, closed: bool) -> bool:
+def is_corner(row: Segments, at: int, closed: bool) -> bool:
     """Whether the data turn sharply at a point, or end there."""
     points, n = row.points, len(row.points)
     if not closed and at in (0, n - 1):
