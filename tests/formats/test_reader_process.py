@@ -13,15 +13,17 @@ import pytest
 
 import shapespline as ss
 from shapespline.errors import MissingExtraError, SkippedContentWarning
-from shapespline.formats import reader_process
+from shapespline.formats import ChildProcess, reader_process
 from shapespline.formats.reader_process import Question, ReaderProcess, can_begin
 
 # A format's module whose "files" say what becomes of them.
 MODULE = """
 import os, time, warnings
 from shapespline.errors import FormatError, SkippedContentWarning
+from shapespline.formats import reader_process
 
 def read(path, **options):
+    assert not reader_process.can_begin()
     print("a library prints what it likes", flush=True)
     os.write(1, b"and past Python, too")
     asked = path.read_text()
@@ -122,11 +124,9 @@ def test_a_copy_of_the_program_reads_in_a_process_of_its_own(asked, process):
     process.forget()
     try:
         assert asked("b")[2] != first
-        assert kept.poll() is None
+        assert not kept.has_ended
     finally:
-        kept.kill()
-        with kept:
-            pass
+        kept.end()
 
 
 def test_programs_that_have_python_within_are_not_begun_again(monkeypatch):
@@ -136,6 +136,9 @@ def test_programs_that_have_python_within_are_not_begun_again(monkeypatch):
         assert not can_begin()
     monkeypatch.setattr(sys, "executable", "/usr/bin/pypy3")
     assert can_begin()
+    with monkeypatch.context() as begun:
+        begun.setattr(ChildProcess, "is_this", True)
+        assert not can_begin()
     monkeypatch.setattr(sys, "frozen", True, raising=False)
     assert not can_begin()
 

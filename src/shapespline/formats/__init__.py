@@ -1,6 +1,7 @@
 """Formats: one file and one line of the registry for each."""
 
 from shapespline.formats.atomic import check_target, write_atomically
+from shapespline.formats.child_process import ChildProcess
 from shapespline.formats.compared import compare
 from shapespline.formats.csv import columns_of
 from shapespline.formats.geo import geometry_of, geopandas_series, shapely_geometry
@@ -20,6 +21,7 @@ from shapespline.formats.registry import (
 
 __all__ = [
     "FORMATS",
+    "ChildProcess",
     "Format",
     "bezier",
     "check_output",

@@ -9,28 +9,21 @@ from __future__ import annotations
 
 import atexit
 import os
-import pickle
-import signal
-import subprocess
 import sys
 import threading
 import traceback
 import warnings
-from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from shapespline.errors import FormatError, ShapesplineError, caller_level, require
+from shapespline.formats.child_process import ChildProcess
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-# A process begins without the file that the program was started with, which may read files, too.
-BEGIN = (
-    "import sys; sys.path[:] = sys.argv[1:]; from shapespline.formats import reader_process;"
-    " reader_process.serve()"
-)
+    from shapespline.monitor import Say
 
 
 class Question(NamedTuple):
@@ -46,19 +39,11 @@ class ReaderProcess:
     """Reads one file after the other; begun when it is first asked, and again after it has died."""
 
     def __init__(self) -> None:
-        self._process: subprocess.Popen[bytes] | None = None
+        self._process: ChildProcess | None = None
         self._lock = threading.Lock()
 
     def read(self, question: Question) -> Any:
-        """What the format's reader finds; its warnings are given again here.
-
-        Raises
-        ------
-        FormatError
-            If reading ends the process.
-        ShapesplineError, OSError
-            As the reader does.
-        """
+        """What the format's reader finds; its errors and warnings are raised and given here."""
         with self._lock:
             try:
                 answer = self._asked(question)
@@ -79,22 +64,17 @@ class ReaderProcess:
 
     def _asked(self, question: Question) -> Any:
         """The answer of the process; None if it ended."""
-        process = self._process
-        if process is None or process.poll() is not None:
-            process = self._process = _begun()
-        try:
-            _say(cast("IO[bytes]", process.stdin), question)
-            return pickle.load(cast("IO[bytes]", process.stdout))
-        except (EOFError, OSError, pickle.UnpicklingError):
-            self._end()
-            return None
+        if self._process is None or self._process.has_ended:
+            try:
+                self._process = ChildProcess(__name__)
+            except OSError as error:
+                raise FormatError(f"no process to read the file can be begun: {error}") from error
+        return self._process.asked(question)
 
     def _end(self) -> None:
         process, self._process = self._process, None
         if process is not None:
-            process.kill()
-            with process:
-                pass
+            process.end()
 
     def close(self) -> None:
         """End the process."""
@@ -120,17 +100,11 @@ def read_apart(question: Question) -> Any:
 
 
 def serve() -> None:
-    """Read what comes in, one file after the other; the life of such a process."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # What libraries print must not come between the answers.
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    with suppress(EOFError):
-        while True:
-            _say(answers, _answer(pickle.load(sys.stdin.buffer)))
+    """The life of the process that reads."""
+    ChildProcess.serve(_answer)
 
 
-def _answer(question: Question) -> Any:
+def _answer(question: Question, _: Say) -> Any:
     """What was found, warnings, and None; or the error."""
     found, error = None, cast("Exception | None", None)
     with warnings.catch_warnings(record=True) as said:
@@ -152,24 +126,13 @@ def read_here(question: Question) -> Any:
 
 
 def can_begin() -> bool:
-    """Whether this program begins Python when it is begun again: not if that lies within it."""
+    """Whether a process is wanted and this program begins Python when it is begun again.
+
+    Not if Python lies within it.
+    """
     program = Path(sys.executable or "").stem.lower()
-    return not getattr(sys, "frozen", False) and ("python" in program or "pypy" in program)
-
-
-def _begun() -> subprocess.Popen[bytes]:
-    command = [sys.executable, "-c", BEGIN, *sys.path]
-    try:
-        return subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
-        )
-    except OSError as error:
-        raise FormatError(f"no process to read the file can be begun: {error}") from error
-
-
-def _say(file: IO[bytes], said: Any) -> None:
-    pickle.dump(said, file, pickle.HIGHEST_PROTOCOL)
-    file.flush()
+    alone = ChildProcess.is_this or getattr(sys, "frozen", False)
+    return not alone and ("python" in program or "pypy" in program)
 
 
 _READER = ReaderProcess()

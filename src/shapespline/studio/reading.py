@@ -6,20 +6,16 @@ file takes nothing else along (STU-05).
 
 from __future__ import annotations
 
-import os
-import pickle
-import signal
-import subprocess
-import sys
 import tempfile
 import threading
 import traceback
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from time import monotonic
-from typing import IO, TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from shapespline.errors import FormatError, InvalidInputError, ShapesplineError
+from shapespline.formats import ChildProcess
 from shapespline.studio.documents import Document, checked, opened
 from shapespline.studio.jobs import Cancelled
 
@@ -33,11 +29,6 @@ if TYPE_CHECKING:
 MOST_SECONDS = 120.0
 # Seconds between two looks at whether a file is still wanted.
 LOOK = 0.1
-# A process begins without the file that the program was started with, which may start a studio.
-BEGIN = (
-    "import sys; sys.path[:] = sys.argv[1:]; from shapespline.studio import reading;"
-    " reading.serve()"
-)
 
 
 @dataclass
@@ -46,13 +37,17 @@ class Doing:
 
     text: str
 
+    def told(self, text: str) -> None:
+        """It does something else now."""
+        self.text = text
+
 
 class Readers:
     """Processes that read: one stands ready, more are started where several pages read at once."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._idle: subprocess.Popen[bytes] | None = None
+        self._idle: ChildProcess | None = None
         self._closed = False
 
     def prepare(self) -> None:
@@ -67,7 +62,7 @@ class Readers:
             self._closed = True
             idle, self._idle = self._idle, None
         if idle is not None:
-            _end(idle)
+            idle.end()
 
     def opened(
         self, name: object, content: bytes, options: Mapping[str, Any], ticket: Ticket
@@ -88,7 +83,7 @@ class Readers:
         # Its temporary files are deleted here, however it ends.
         doing = Doing(f"reading {name}")
         with tempfile.TemporaryDirectory() as folder, _watched(process, doing, ticket):
-            answer = _asked(process, (folder, name, content, dict(options)), doing)
+            answer = process.asked((folder, name, content, dict(options)), doing.told)
         if answer is None:
             self.prepare()
             ticket.check()
@@ -104,30 +99,24 @@ class Readers:
             raise error
         return Document(name, content, dict(options), shape, sentences)
 
-    def _keep(self, process: subprocess.Popen[bytes]) -> None:
+    def _keep(self, process: ChildProcess) -> None:
         """Have a process stand ready, or end it where one does."""
         with self._lock:
             wanted = self._idle is None and not self._closed
             if wanted:
                 self._idle = process
         if not wanted:
-            _end(process)
+            process.end()
 
 
 def serve() -> None:
-    """Read what comes in, one file after the other; the life of such a process."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # What libraries print must not come between the answers.
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    with suppress(EOFError):
-        while True:
-            tempfile.tempdir, name, content, options = pickle.load(sys.stdin.buffer)
-            _say(answers, _read(name, content, options, lambda text: _say(answers, text)))
+    """The life of a process that reads."""
+    ChildProcess.serve(_answer)
 
 
-def _read(name: str, content: bytes, options: Mapping[str, Any], say: Say) -> Any:
+def _answer(question: tuple[str, str, bytes, Mapping[str, Any]], say: Say) -> Any:
     """Shape, sentences and None; or the error."""
+    tempfile.tempdir, name, content, options = question
     try:
         document = opened(name, content, options, say)
     except ShapesplineError as error:
@@ -137,41 +126,15 @@ def _read(name: str, content: bytes, options: Mapping[str, Any], say: Say) -> An
     return document.shape, document.sentences, None
 
 
-def _say(file: IO[bytes], said: Any) -> None:
-    pickle.dump(said, file, pickle.HIGHEST_PROTOCOL)
-    file.flush()
-
-
-def _begun() -> subprocess.Popen[bytes]:
-    command = [sys.executable, "-c", BEGIN, *sys.path]
+def _begun() -> ChildProcess:
     try:
-        return subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
-        )
+        return ChildProcess(__name__)
     except OSError as error:
         raise InvalidInputError(f"no process to read files can be begun: {error}") from error
 
 
-def _end(process: subprocess.Popen[bytes]) -> None:
-    process.kill()
-    with process:
-        pass
-
-
-def _asked(process: subprocess.Popen[bytes], question: Any, doing: Doing) -> Any:
-    """The answer of a process; None if it ended."""
-    try:
-        _say(cast("IO[bytes]", process.stdin), question)
-        while isinstance(answer := pickle.load(cast("IO[bytes]", process.stdout)), str):
-            doing.text = answer
-        return answer
-    except (EOFError, OSError, pickle.UnpicklingError):
-        _end(process)
-        return None
-
-
 @contextmanager
-def _watched(process: subprocess.Popen[bytes], doing: Doing, ticket: Ticket) -> Iterator[None]:
+def _watched(process: ChildProcess, doing: Doing, ticket: Ticket) -> Iterator[None]:
     """Meanwhile say what it does; end it when it is not wanted, or takes too long."""
     done, began = threading.Event(), monotonic()
 
