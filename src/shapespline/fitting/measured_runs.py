@@ -10,6 +10,7 @@ import numpy as np
 from shapespline.analysis import LEAST_TURN, NOISE_BAND
 from shapespline.engines.drawn import DrawnArc, DrawnLine, FreeRun
 from shapespline.fitting.runs import Runs, crossing_of
+from shapespline.geometry import distance_from_chords
 from shapespline.validation import median
 from shapespline.values import FULL_TURN, Arc, Contour
 
@@ -76,8 +77,7 @@ class MeasuredRuns:
 
     def _with_corners(self, points: FloatArray) -> FloatArray:
         """A run of clean points with its corners that lie between two of them (FIT-40)."""
-        (x, y), (u, v) = np.diff(points[:-1], axis=0).T, np.diff(points[1:], axis=0).T
-        turns = np.arctan2(x * v - y * u, x * u + y * v)
+        turns = _turns(points)
         # The chord across one turns at both of its ends.
         places = 1 + np.flatnonzero(np.abs(turns[:-1] + turns[1:]) >= LEAST_TURN)
         found = [(k + 1, self._corner_after(points, k)) for k in places.tolist()]
@@ -101,7 +101,7 @@ class MeasuredRuns:
         step = float(np.hypot(*(chord[1] - chord[0])))
         if min(ahead) < BETWEEN * step or max(ahead) > STEPS * step:
             return None
-        return point if _from_chords(point, chord) <= KEPT * self.within else None
+        return point if distance_from_chords(point, chord) <= KEPT * self.within else None
 
     def smoothed(self, run: FreeRun) -> tuple[Piece, ...]:
         """Lines and splines of a run, from its first point to its last one, along its tangents."""
@@ -137,23 +137,20 @@ class MeasuredRuns:
         far = float(np.hypot(*(near - met).T).min())
         if np.hypot(*(met - node)) > reach or far > max(step, band):
             return None
-        if _from_chords(met, near) > KEPT * self.within:
+        if distance_from_chords(met, near) > KEPT * self.within:
             return None
         return crossing._replace(point=met)
 
 
-def _from_chords(point: FloatArray, points: FloatArray) -> float:
-    """Distance of a point from the chords of a row."""
-    begin, along = points[:-1], np.diff(points, axis=0)
-    share = ((point - begin) * along).sum(axis=1) / (along**2).sum(axis=1)
-    away = begin + np.clip(share, 0.0, 1.0)[:, None] * along - point
-    return float(np.hypot(*away.T).min())
+def _turns(points: FloatArray) -> FloatArray:
+    """By how much a row turns in each of its inner points, radians."""
+    (x, y), (u, v) = np.diff(points[:-1], axis=0).T, np.diff(points[1:], axis=0).T
+    return np.arctan2(x * v - y * u, x * u + y * v)
 
 
 def _bends_little(points: FloatArray) -> bool:
     """Whether a cubic through some points tells where their curve goes on: no corner is in them."""
-    (x, y), (u, v) = np.diff(points[:-1], axis=0).T, np.diff(points[1:], axis=0).T
-    return bool(np.abs(np.arctan2(x * v - y * u, x * u + y * v)).max() <= MOST_BEND)
+    return bool(np.abs(_turns(points)).max() <= MOST_BEND)
 
 
 def _through(points: FloatArray, end: int) -> FloatArray:

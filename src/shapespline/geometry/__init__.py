@@ -24,7 +24,12 @@ from shapespline.geometry.moving import (
     transformed_drawing,
     transformed_fit,
 )
-from shapespline.geometry.nearest import PointsByX, nearest, nondecreasing
+from shapespline.geometry.nearest import (
+    PointsByX,
+    distance_from_chords,
+    nearest,
+    nondecreasing,
+)
 from shapespline.geometry.nesting import all_containing, containing, parents_of, signed_area
 from shapespline.geometry.normal_motion import curve_motion, unit_normals
 from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
@@ -61,6 +66,7 @@ __all__ = [
     "contains",
     "crossing_pairs",
     "curve_motion",
+    "distance_from_chords",
     "elevated",
     "enclosed_area",
     "evenly_spaced",

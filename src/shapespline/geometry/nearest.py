@@ -64,6 +64,21 @@ def nearest(curve: BSplineCurve, points: ArrayLike) -> Nearest:
     return Nearest(parameters, distances_sq)
 
 
+def distance_from_chords(point: FloatArray, points: FloatArray) -> float:
+    """Distance of a point (2,) from the polyline through some points, shape (k, 2).
+
+    Examples
+    --------
+    >>> distance_from_chords(np.array([1.0, 1.0]), np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 4.0]]))
+    1.0
+    """
+    x, y = (points[:-1] - point).T
+    u, v = (points[1:] - points[:-1]).T
+    share = -(x * u + y * v) / np.maximum(u * u + v * v, 1e-300)
+    share = np.minimum(np.maximum(share, 0.0), 1.0)
+    return float(np.hypot(x + share * u, y + share * v).min())
+
+
 def nondecreasing(parameters: FloatArray, period: float | None = None) -> FloatArray:
     """Parameters put back into the order of their data, by sorting.
 

@@ -20,6 +20,7 @@ from shapespline.engines.drawn.segments import (
     LINE,
     LINE_PARAMETERS,
     PRICE,
+    off_line,
 )
 
 if TYPE_CHECKING:
@@ -105,14 +106,12 @@ def _direction(points: FloatArray, kind: int, at: FloatArray) -> FloatArray:
 
 def _misfit_of(points: FloatArray, kind: int) -> float:
     """Sum of squares that a line or a circle leaves of points."""
-    weights = np.ones(len(points))
     if len(points) <= 2 + (kind == ARC):
         return 0.0
     if kind == LINE:
-        direction, offset = _kernels.line_through(points, weights)
-        across = np.cos(direction) * points[:, 1] - np.sin(direction) * points[:, 0] - offset
+        across = off_line(points)
     else:
-        x, y, radius = _kernels.circle_through(points, weights)
+        x, y, radius = _kernels.circle_through(points, np.ones(len(points)))
         across = np.hypot(points[:, 0] - x, points[:, 1] - y) - radius
     return float(across @ across)
 

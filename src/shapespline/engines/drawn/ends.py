@@ -8,6 +8,7 @@ import numpy as np
 
 from shapespline.engines.drawn.joints import direction_at, meeting, onto, turn_at, unit_of
 from shapespline.engines.drawn.segments import CORNER, LINE
+from shapespline.geometry import distance_from_chords
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
@@ -176,7 +177,7 @@ def away_from_data(model: Model, k: int, node: FloatArray) -> float:
         around = points[np.arange(first, last) % (n - 1)]
     else:
         around = points[max(first, 0) : last]
-    return _from_chords(node, around)
+    return distance_from_chords(node, around)
 
 
 def _away_from_whole(model: Model, k: int, node: FloatArray, whole: FloatArray) -> float:
@@ -186,16 +187,7 @@ def _away_from_whole(model: Model, k: int, node: FloatArray, whole: FloatArray) 
     reach = NEIGHBOURS * (len(whole) // len(model.seen.points) + 1)
     index = np.arange(nearest - reach, nearest + reach + 1)
     around = index % len(whole) if model.seen.closed else np.unique(index.clip(0, len(whole) - 1))
-    return _from_chords(node, whole[around])
-
-
-def _from_chords(node: FloatArray, points: FloatArray) -> float:
-    """Distance of a node from the chords of a row of points."""
-    x, y = (points[:-1] - node).T
-    u, v = (points[1:] - points[:-1]).T
-    share = -(x * u + y * v) / np.maximum(u * u + v * v, 1e-300)
-    share = np.minimum(np.maximum(share, 0.0), 1.0)
-    return float(np.hypot(x + share * u, y + share * v).min())
+    return distance_from_chords(node, whole[around])
 
 
 def length_between(model: Model, k: int, begin: FloatArray, end: FloatArray) -> float:

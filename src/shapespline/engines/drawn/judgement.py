@@ -242,6 +242,8 @@ def repeated(model: Model, found: list[Regularity]) -> float:
 def is_plain(model: Model) -> bool:
     """Whether most elements are lines from corner to corner of many exact points (DRA-45)."""
     row, closed = model.row, model.seen.closed
+    if not model.seen.exact:
+        return False
     plain = [
         k
         for k in model.at
@@ -249,7 +251,7 @@ def is_plain(model: Model) -> bool:
         and row.found[k].end - row.found[k].begin >= PLAIN_POINTS
         and all(is_corner(row, at, closed) for at in row.found[k][:2])
     ]
-    return model.seen.exact and len(plain) >= LEAST_SAID * len(model.at)
+    return len(plain) >= LEAST_SAID * len(model.at)
 
 
 def tell_by_direction(model: Model, found: list[Regularity]) -> bool:

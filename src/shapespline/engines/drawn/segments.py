@@ -44,9 +44,9 @@ FREE_PARTS, FREE_STEP = 160, 4
 # Neighbouring lines that one line explains are one: systematic errors of a picture broke them. So
 # many deviations in the mean and at most; an arc whose sagitta is under this many is a line.
 MEAN_MISFIT, LARGEST_MISFIT, FLAT = 2.2, 5.0, 2.5
+FLAT_CHORD = 15.0
 # Steps of a line that a point which is not its own broke off (DRA-44).
 FEW = 4
-FLAT_CHORD = 15.0
 # Radians that data turn at a corner, between chords of so many points.
 CORNER, CORNER_STEPS = 0.5, 4
 
@@ -306,10 +306,15 @@ def _is_flat(points: FloatArray, arc: Segment, seen: Observed) -> bool:
     return sagitta < FLAT * seen.deviation * short
 
 
+def off_line(points: FloatArray) -> FloatArray:
+    """Signed distances of points from the line through them."""
+    direction, offset = _kernels.line_through(points, np.ones(len(points)))
+    return np.cos(direction) * points[:, 1] - np.sin(direction) * points[:, 0] - offset
+
+
 def _on_one_line(points: FloatArray, sigma: float) -> bool:
     if len(points) < 4:
         return False
-    direction, offset = _kernels.line_through(points, np.ones(len(points)))
-    across = np.abs(np.cos(direction) * points[:, 1] - np.sin(direction) * points[:, 0] - offset)
+    across = np.abs(off_line(points))
     mean = (float(across @ across) / len(across)) ** 0.5
     return mean < MEAN_MISFIT * sigma and float(across.max()) < LARGEST_MISFIT * sigma
