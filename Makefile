@@ -74,6 +74,6 @@ clean:
 $(READY): pyproject.toml CMakeLists.txt src/shapespline/_version.py $(KERNEL)
 	@PYTHON="$(PYTHON)" sh scripts/check_tools.sh
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade pip
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dev]"
+	@sh scripts/install.sh $(BIN)/python --upgrade pip
+	@sh scripts/install.sh $(BIN)/python --editable ".[dev]"
 	@touch $(READY)

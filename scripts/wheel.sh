@@ -4,13 +4,13 @@
 set -eu
 base=$1
 environment=build/wheel/environment
-"$base" -m pip install --quiet --disable-pip-version-check build
+sh scripts/install.sh "$base" build
 rm -rf dist $environment
 "$base" -m build --outdir dist .
 "$base" -m venv $environment
 python=$(pwd)/$environment/bin/python
 # No compiler: none by name, and no package that would need one.
-CC=false CXX=false "$python" -m pip install --quiet --disable-pip-version-check --only-binary :all: dist/*.whl
+CC=false CXX=false sh scripts/install.sh "$python" --only-binary :all: dist/*.whl
 script=$(pwd)/scripts/smoke.py
 examples=$(pwd)/examples/data
 # From a folder of its own, so that the package is the one that was installed.
