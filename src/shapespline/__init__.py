@@ -45,6 +45,7 @@ if TYPE_CHECKING:
         Piece,
         Shape,
         Status,
+        Stroke,
         ViewBox,
     )
 
@@ -81,6 +82,7 @@ _HOME = {
     "SparsePointsWarning": "errors",
     "SkippedContentWarning": "errors",
     "Status": "values",
+    "Stroke": "values",
     "UnknownFormatError": "errors",
     "ViewBox": "values",
     "compare": "formats",
@@ -129,6 +131,7 @@ __all__ = [
     "SkippedContentWarning",
     "SparsePointsWarning",
     "Status",
+    "Stroke",
     "UnknownFormatError",
     "ViewBox",
     "__version__",

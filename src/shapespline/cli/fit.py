@@ -83,13 +83,14 @@ class FitFile:
         )
 
     def fitted(self, shape: ss.Shape, source: Path, say: Callable[[str], None]) -> ss.Drawing:
-        """The fit of a shape in memory; areas of colours share their boundaries."""
+        """The fit of a shape in memory; areas of a picture's colours share their boundaries."""
         asked = self.settings.to_dict()
         if self.sigma_columns is not None:
             asked["sigma"] = self.reading.errors(source, self.sigma_columns)
-        shared = self.shared_boundaries or any(shape.colors)
-        accuracy = shape.longest.accuracy
-        if any(shape.colors) and accuracy and not asked.keys() & WANTED:
+        # A picture's areas lie side by side; a drawing's, upon each other, have no accuracy.
+        accuracy = shape.longest.accuracy if any(shape.colors) else None
+        shared = self.shared_boundaries or accuracy is not None
+        if accuracy and not asked.keys() & WANTED:
             asked["tolerance"] = max(AREA_TOLERANCE, AREA_ACCURACIES * accuracy)
         n_points = sum(len(contour) for contour in shape)
 

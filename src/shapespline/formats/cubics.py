@@ -30,18 +30,50 @@ TILED = 1e-6
 
 
 def groups(drawing: Drawing) -> list[list[int]]:
-    """Indices of the fits that are filled together: an outline and its holes, or a curve alone."""
-    found: dict[int, list[int]] = {}
-    holes: list[tuple[int, int]] = []
-    for index, fit in enumerate(drawing):
-        parent = drawing.parents[index]
-        if drawing.is_hole(index) and fit.closed and drawing.fits[parent].closed:
-            holes.append((parent, index))
-        else:
-            found[index] = [index]
-    for parent, index in holes:
-        found[parent].append(index)
+    """Indices of the fits that bound an area together: an outline and its holes, or one alone."""
+    return _in_turns(drawing, [drawing.is_area(index) for index in range(len(drawing))])
+
+
+def painted(drawing: Drawing) -> list[list[int]]:
+    """Indices of the fits that are painted together, in the order in which they are.
+
+    Where areas have colours, those within others are painted upon them, and what has none is a hole
+    of what it lies in.
+    """
+    colors, filled = drawing.colors, [drawing.is_filled(index) for index in range(len(drawing))]
+    if not any(colors):
+        return _in_turns(drawing, filled)
+    holes = {
+        index: parent
+        for index, parent in enumerate(drawing.parents)
+        if filled[index] and colors[index] is None and parent >= 0 and colors[parent]
+    }
+    return _with_holes(drawing, holes)
+
+
+def _in_turns(drawing: Drawing, areas: list[bool]) -> list[list[int]]:
+    """Some outlines within each other are areas and holes in turn; all others are alone."""
+    holes = {}
+    for index, parent in enumerate(drawing.parents):
+        around = []
+        while parent >= 0:
+            around += [parent] if areas[parent] else []
+            parent = drawing.parents[parent]
+        if areas[index] and len(around) % 2 == 1:
+            holes[index] = around[0]
+    return _with_holes(drawing, holes)
+
+
+def _with_holes(drawing: Drawing, holes: dict[int, int]) -> list[list[int]]:
+    found = {index: [index] for index in range(len(drawing)) if index not in holes}
+    for index, outline in holes.items():
+        found[outline].append(index)
     return list(found.values())
+
+
+def broadest(drawing: Drawing) -> float:
+    """Width of the broadest stroke, 0 without one: so far a page reaches beyond its curves."""
+    return max((width for width in drawing.widths if width), default=0.0)
 
 
 def is_tiled(drawing: Drawing) -> bool:
@@ -49,8 +81,11 @@ def is_tiled(drawing: Drawing) -> bool:
     if drawing.frame is None or not any(drawing.colors):
         return False
     covered = 0.0
-    for group in groups(drawing):
-        if drawing.colors[group[0]] is None or not drawing.is_area(group[0]):
+    for group in painted(drawing):
+        first, parent = group[0], drawing.parents[group[0]]
+        beside = parent < 0 or drawing.colors[parent] is None  # and not upon another one
+        plain = drawing.is_filled(first) and drawing.widths[first] is None
+        if drawing.colors[first] is None or not (beside and plain):
             return False
         sizes = [drawing.fits[index].area for index in group]
         covered += sizes[0] - sum(sizes[1:])

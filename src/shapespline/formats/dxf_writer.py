@@ -104,9 +104,8 @@ def encode(
                 _add_arcs(space, fit, arc_tolerance)
             else:
                 _add_splines(space, fit, degree)
-            # A hole is on the layer of the area that it is a hole in.
-            color = drawing.colors[index] or drawing.colors[drawing.parents[index]]
-            if color is not None and (drawing.colors[index] or drawing.parents[index] >= 0):
+            color = _color_of(drawing, index)
+            if color is not None:
                 layer = _layer(document, color)
                 for number in range(before, len(space)):
                     space[number].dxf.layer = layer
@@ -115,6 +114,13 @@ def encode(
         space.reset_extents((box.x_min, box.y_min, 0.0), (box.x_max, box.y_max, 0.0))
         document.write(text)
     return text.getvalue().encode(document.output_encoding, errors="dxfreplace")
+
+
+def _color_of(drawing: Drawing, index: int) -> str | None:
+    """The colour of an area or else of its stroke; a hole has that of the area that it is in."""
+    stroke, parent = drawing.strokes[index], drawing.parents[index]
+    own = drawing.colors[index] or (stroke.color if stroke else None)
+    return own or (drawing.colors[parent] if parent >= 0 else None)
 
 
 def _layer(document: Document, color: str) -> str:

@@ -8,7 +8,8 @@ It is one object::
     frame    {x, y, width, height} or null
     parents  for each fit the index of the one directly around it, -1 for none
     colors   for each fit its colour as #rrggbb or null; not there if no fit has one
-    widths   for each fit how wide the stroke is along which it runs, or null; not there if none is
+    widths   for each fit how wide the stroke along it is, or null; not there if there are none
+    strokes  for each fit [color, cap, join] of its stroke, or null; not there if there are none
     reference  name of the coordinate reference system; not there if it is not known
     regularities  as of a fit, with indices of fits for pieces; not there if there are none
     fits     objects with the fields of shapespline.drawing.Fit:
@@ -58,6 +59,9 @@ from shapespline.formats.json_values import (
     checked_object,
     checked_points,
     checked_string,
+    refused,
+    stroke_or_null,
+    without_repeats,
 )
 from shapespline.monitor import Iteration
 from shapespline.units import UNITS
@@ -82,7 +86,11 @@ LINE_LENGTH = 100
 DISTANCES = ("max_distance", "rms_distance", "hausdorff_distance", "tolerance")
 FIT_FIELDS: tuple[str, ...] = ("spline", "contour", "parameters", *DISTANCES)
 FIT_FIELDS += ("status", "history", "method", "sections", "outliers", "uncertainty")
-LISTED = ("colors", "widths")  # for each fit; in a document, as others, only where there are some
+LISTED = (
+    "colors",
+    "widths",
+    "strokes",
+)  # for each fit; in a document, as others, only where there are some
 NOT_ALWAYS = (*LISTED, "reference", "regularities")
 DRAWING_FIELDS = ("format", "version", "unit", "frame", "parents", "fits")
 CONTOUR_FIELDS: tuple[str, ...] = ("closed", "points", "source", "accuracy")
@@ -156,8 +164,8 @@ def read(path: Path) -> Drawing:
     try:
         document = json.loads(
             path.read_bytes().decode("utf-8"),
-            object_pairs_hook=_without_repeats,
-            parse_constant=_refused,
+            object_pairs_hook=without_repeats,
+            parse_constant=refused,
         )
     except RecursionError:
         raise FormatError("no shapespline drawing: nested too deeply") from None
@@ -260,18 +268,6 @@ def _filled(items: list[str], width: int) -> list[str]:
 # Reading: every function takes a value and where it stands, and returns it checked.
 
 
-def _without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    fields = dict(pairs)
-    if len(fields) < len(pairs):
-        names = [name for name, _ in pairs]
-        raise FormatError(f"the field {max(names, key=names.count)!r} is given twice")
-    return fields
-
-
-def _refused(constant: str) -> float:
-    raise FormatError(f"numbers must be finite, found {constant}")
-
-
 def _drawing(document: object) -> Drawing:
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise FormatError('no shapespline drawing: it does not begin with "format": "shapespline"')
@@ -296,6 +292,8 @@ def _drawing(document: object) -> Drawing:
         raise FormatError(f"unit must be null or one of {', '.join(UNITS)}, found {unit!r}")
     fits = [_fit(item, f"fits[{i}]") for i, item in enumerate(items)]
     listed = {name: checked_list(fields[name], name) for name in LISTED if name in fields}
+    if "strokes" in listed:
+        listed["strokes"] = [stroke_or_null(item, "strokes") for item in listed["strokes"]]
     found = checked_regularities(fields.get("regularities", []), "regularities", len(fits))
     try:
         return Drawing(fits, parents, frame, unit, reference=fields.get("reference"),

@@ -10,9 +10,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shapespline.errors import FormatError
+from shapespline.values import Stroke
 
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray
+
+
+def without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """The fields of an object."""
+    fields = dict(pairs)
+    if len(fields) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise FormatError(f"the field {max(names, key=names.count)!r} is given twice")
+    return fields
+
+
+def refused(constant: str) -> float:
+    """Infinite numbers and NaN are none of JSON."""
+    raise FormatError(f"numbers must be finite, found {constant}")
 
 
 def checked_object(value: object, where: str, names: tuple[str, ...]) -> dict[str, Any]:
@@ -101,6 +116,16 @@ def checked_indices(value: object, where: str, first: int, count: int) -> list[i
                 f"{where}[{position}] must be from {first} to {count - 1}, found {index}"
             )
     return indices
+
+
+def stroke_or_null(value: object, where: str) -> Stroke | None:
+    """How a stroke looks, written as its three words."""
+    if value is None:
+        return None
+    words = checked_list(value, where)
+    if len(words) != len(Stroke._fields):
+        raise FormatError(f"{where} must be null or {', '.join(Stroke._fields)}, found {words!r}")
+    return Stroke(*(checked_string(word, where) for word in words))
 
 
 def _kind(value: object) -> str:

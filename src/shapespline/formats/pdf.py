@@ -7,8 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.formats.cubics import as_cubics, groups, is_straight, is_tiled, turning_points
+from shapespline.formats.cubics import (
+    as_cubics,
+    broadest,
+    is_straight,
+    is_tiled,
+    painted,
+    turning_points,
+)
 from shapespline.units import MILLIMETRES
+from shapespline.values import BLACK
 
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray
@@ -20,6 +28,9 @@ MARGIN, STROKE = 0.02, 0.0025
 LONGER_SIDE = 842.0
 # Coordinates in points with so many decimals: a ten-thousandth of what a printer resolves.
 DECIMALS = 6
+# What PDF calls the ends and turns of strokes.
+CAP_NUMBERS = {"butt": 0, "round": 1, "square": 2}
+JOIN_NUMBERS = {"miter": 0, "round": 1, "bevel": 2}
 
 
 def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
@@ -42,30 +53,27 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
     extremes = np.concatenate([turning_points(curves) for curves in cubics])
     low, high = extremes.min(axis=0), extremes.max(axis=0)
     longer = float((high - low).max()) or 1.0
-    scale = _points_a_unit(drawing.unit) or LONGER_SIDE / longer / (1 + 2 * MARGIN)
-    corner = low - MARGIN * longer
-    width, height = scale * (high - low + 2 * MARGIN * longer)
+    margin = MARGIN * longer + broadest(drawing)
+    scale = _points_a_unit(drawing.unit) or LONGER_SIDE / (longer + 2 * margin)
+    corner = low - margin
+    width, height = scale * (high - low + 2 * margin)
     lines = [f"{_number(STROKE * scale * longer)} w 1 j 1 J"]
-    paths = []
-    for group in groups(drawing):
-        filled = fill and drawing.is_area(group[0])
-        color = drawing.colors[group[0]] if filled else None
+    paths, together = [], painted(drawing)
+    for group in together:
         data = "\n".join(
             _path(scale * (cubics[index] - corner), drawing.fits[index].closed) for index in group
         )
-        own = drawing.widths[group[0]]
-        if own is not None:
-            data = f"{_number(scale * own)} w\n{data}"
-        paths.append((color, data, "f*" if filled else "S"))
+        paths.append((data, *_paint(drawing, group[0], scale, fill=fill)))
     if fill and is_tiled(drawing):
         # Beneath the areas their outlines: viewers smooth each area by itself, and what lies
         # beneath shows on the border of two. Nothing of them shows beside the picture.
         box = " ".join(map(_number, [*(scale * (low - corner)), *(scale * (high - low))]))
         lines += ["q", f"{box} re W n"]
-        lines += [f"{_color(color)} RG\n{data}\nS" for color, data, _ in paths if color]
+        colors = [_color(drawing.colors[group[0]] or BLACK) for group in together]
+        lines += [f"{c} RG\n{data}\nS" for c, (data, *_) in zip(colors, paths, strict=True)]
         lines.append("Q")
-    for color, data, paint in paths:
-        lines += [data, paint] if color is None else [f"{_color(color)} rg", data, paint]
+    for data, pen, operator in paths:
+        lines += [*(["q", pen] if pen else []), data, operator, *(["Q"] if pen else [])]
     content = zlib.compress("\n".join(lines).encode("ascii"), 9)
     box = f"[0 0 {_number(width)} {_number(height)}]"
     return _file(
@@ -79,6 +87,21 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
             + b"\nendstream",
         ]
     )
+
+
+def _paint(drawing: Drawing, index: int, scale: float, *, fill: bool) -> tuple[str, str]:
+    """How a path is to be drawn: what is set before it, and the operator after it."""
+    color, width, stroke = drawing.colors[index], drawing.widths[index], drawing.strokes[index]
+    filled = fill and drawing.is_filled(index)
+    pen = [f"{_color(color)} rg"] if filled and color else []
+    if width is not None:
+        pen.append(f"{_number(scale * width)} w")
+    if stroke is not None:
+        cap, join = CAP_NUMBERS[stroke.cap], JOIN_NUMBERS[stroke.join]
+        pen.append(f"{_color(stroke.color)} RG {cap} J {join} j 4 M")
+    if not filled:
+        return "\n".join(pen), "S"
+    return "\n".join(pen), "f*" if width is None else "B*"
 
 
 def _color(color: str) -> str:

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import io
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 from PIL import Image, ImageChops, ImageDraw
 
 from shapespline.errors import InvalidInputError
-from shapespline.formats.cubics import groups
+from shapespline.formats.cubics import broadest, painted
 from shapespline.geometry import sampled
 from shapespline.validation import whole_number
+from shapespline.values import BLACK, Stroke
 
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray
@@ -22,6 +24,8 @@ MARGIN, STROKE = 0.02, 0.004
 LONGER_SIDE, LARGEST_SIDE = 1024, 16_384
 # Drawn larger and reduced: each pixel then has the part of it that is covered.
 OVERSAMPLING = 4
+# How many times as far as its sides a pointed corner of a stroke may reach, as in SVG.
+MITER_LIMIT = 4.0
 
 
 def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) -> bytes:
@@ -55,23 +59,33 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
     )
     size = (width, height)
     ink = Image.new("RGB", size, "white")
-    for group in groups(drawing):
-        filled = fill and drawing.is_area(group[0])
-        shape = Image.new("1", size)
-        for index in group:
-            part = Image.new("1", size)
-            points = scale * (lines[index] - low)
-            at = [(float(x), float(scale * (high[1] - low[1]) - y)) for x, y in points]
-            if filled:
+    for group in painted(drawing):
+        first = group[0]
+        filled = fill and drawing.is_filled(first)
+        placed = [
+            [(float(x), float(scale * (high[1] - low[1]) - y)) for x, y in points]
+            for points in (scale * (lines[index] - low) for index in group)
+        ]
+        if filled:
+            shape = Image.new("1", size)
+            for at in placed:
+                part = Image.new("1", size)
                 ImageDraw.Draw(part).polygon(at, fill=1)
                 shape = ImageChops.logical_xor(shape, part)
+            ink.paste(drawing.colors[first] or BLACK, mask=shape)
+        own, look = drawing.widths[first], drawing.strokes[first] or Stroke()
+        if own is None and filled:
+            continue
+        shape = Image.new("1", size)
+        for at in placed:
+            if own is None:
+                wide = max(1, round(scale * STROKE * longer))
+                ImageDraw.Draw(shape).line(at, fill=1, width=wide, joint="curve")
             else:
-                own = drawing.widths[index]
-                _draw_stroke(part, at, scale * (own or STROKE * longer), is_round=own is not None)
-                shape = ImageChops.logical_or(shape, part)
-        ink.paste(drawing.colors[group[0]] or "black", mask=shape)
+                _draw_stroke(shape, at, scale * own, look)
+        ink.paste(look.color, mask=shape)
     picture = ink.reduce(OVERSAMPLING)
-    if not any(drawing.colors):
+    if not any(drawing.colors) and not any(drawing.strokes):
         picture = picture.convert("L")
     out = io.BytesIO()
     picture.save(out, format="PNG", optimize=True)
@@ -79,12 +93,35 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
 
 
 def _draw_stroke(
-    part: Image.Image, at: list[tuple[float, float]], width: float, *, is_round: bool
+    part: Image.Image, at: list[tuple[float, float]], width: float, look: Stroke
 ) -> None:
+    """A polyline with a pen: where it bends round, at its corners and ends as the stroke says."""
     pen, wide = ImageDraw.Draw(part), max(1, round(width))
-    pen.line(at, fill=1, width=wide, joint=None if is_round else "curve")
     half = 0.5 * (wide - 1)
-    for x, y in at if is_round else ():  # Pillow's own joints leave gaps in wide strokes
+    points = np.array(at)
+    points = points[np.concatenate([[True], (points[1:] != points[:-1]).any(axis=1)])]
+    closed = len(points) > 2 and bool((points[0] == points[-1]).all())
+    steps = np.diff(points, axis=0)
+    along = steps / np.hypot(*steps.T)[:, None]
+    if look.cap == "square" and not closed and len(along):
+        points[0] -= half * along[0]
+        points[-1] += half * along[-1]
+    pen.line([(x, y) for x, y in points.tolist()], fill=1, width=wide)
+    rounded = [points[0], points[-1]] if look.cap == "round" and not closed else []
+    before, after = (along, np.roll(along, -1, axis=0)) if closed else (along[:-1], along[1:])
+    # Pillow's own joints leave gaps in wide strokes. A round one would reach beyond an end.
+    ends = points[:0] if closed or look.cap == "round" else points[[0, -1]]
+    for point, one, other in zip(points[1:], before, after, strict=False):
+        turn = float(np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other))
+        if look.join == "round" and (np.hypot(*(ends - point).T) > half).all():
+            rounded.append(point)
+            continue
+        sides = half * -np.sign(turn) * np.array([[-one[1], one[0]], [-other[1], other[0]]])
+        outer = [point, point + sides[0], point + sides[1]]
+        if look.join == "miter" and math.cos(0.5 * turn) >= 1 / MITER_LIMIT:
+            outer.insert(2, point + (sides[0] + sides[1]) / (1 + one @ other))
+        pen.polygon([(x, y) for x, y in np.array(outer).tolist()], fill=1)
+    for x, y in np.array(rounded).reshape(-1, 2).tolist():
         pen.ellipse([x - half, y - half, x + half, y + half], fill=1)
 
 
@@ -95,5 +132,5 @@ def _window(drawing: Drawing, lines: list[FloatArray]) -> tuple[FloatArray, Floa
         return np.array([x, y]), np.array([x + width, y + height])
     everything = np.concatenate(lines)
     low, high = everything.min(axis=0), everything.max(axis=0)
-    margin = (MARGIN + STROKE) * float((high - low).max())
+    margin = (MARGIN + STROKE) * float((high - low).max()) + broadest(drawing)
     return low - margin, high + margin

@@ -7,15 +7,22 @@ colour on top changes is seen, and lies in the next one around it that is: areas
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.geometry import all_containing, crossing_pairs, self_crossings, signed_area
+from shapespline.formats.svg_paint import WHITE, blended
+from shapespline.formats.svg_polygons import is_closed, places_within, polygon_of, winds_twice
+from shapespline.geometry import (
+    all_containing,
+    crossing_pairs,
+    holding,
+    self_crossings,
+    signed_area,
+)
+from shapespline.values import BLACK
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -24,13 +31,11 @@ if TYPE_CHECKING:
     from shapespline.typing import FloatArray
     from shapespline.values import Piece
 
-WHITE = "#ffffff"
-# Chords of a curve or a quarter of a circle and of a line, of which corners alone may lie on the
-# border of another area; and the grid of their ends as a part of the drawing: borders that two
-# areas share are the same chords either way round (FMT-15).
-CHORDS, CHORDS_OF_A_LINE, GRID = 16, 4, 1e-7
-# Segments of a line that crosses itself beside which is asked how often it runs around (FMT-15).
-MOST_ASKED = 64
+# The grid of the ends of chords as a part of the drawing (FMT-15).
+GRID = 1e-7
+# Places within and beside an outline where is asked what is seen, of one and of all together
+# (FMT-17).
+PLACES, ALL_PLACES = 32, 8192
 
 
 class SubPath(NamedTuple):
@@ -41,70 +46,19 @@ class SubPath(NamedTuple):
     paint: Paint
 
 
-class Nested(NamedTuple):
-    """What of some sub-paths is seen.
-
-    Attributes
-    ----------
-    kept : list of int
-        Places of those that are, in their order.
-    parents : list of int or None
-        For each of them the one directly around it among them, -1 for none; None where their
-        places tell it.
-    white : bool
-        Whether areas were left out that are white on white.
-    crossing : bool
-        Whether borders of areas cross each other or themselves, so that they would have to be
-        united or cut.
-    """
-
-    kept: list[int]
-    parents: list[int] | None
-    white: bool = False
-    crossing: bool = False
-
-
 class Top(NamedTuple):
-    """The element that is seen in a place, -1 for none, and its colour."""
+    """The uppermost element that is seen in a place, -1 for none, and the colour.
+
+    Elements beneath it that show through count for the colour, too.
+    """
 
     element: int
     color: str | None
-
-
-def nested_as_painted(paths: Sequence[SubPath]) -> Nested:
-    """Which sub-paths are seen, and which lie directly in which.
-
-    Outlines that bound no change of colour are no holes: those of an area on one of its own colour
-    stand for themselves, what is white on white or painted over is left out, and of those that
-    coincide one is kept.
-    """
-    areas = _Areas(paths)
-    parents = {k: areas.parent(k) for k in areas.outlines if not areas.is_hidden(k)}
-    # Painted for itself an area of no other colour would fill a hole that belongs to what is
-    # around it.
-    filling = {
-        other
-        for k, parent in parents.items()
-        if parent >= 0 and k in areas.seen
-        for other in areas.around[k]
-        if other in parents and other not in areas.seen and parent in areas.around[other]
-    }
-    for k, parent in parents.items():
-        if parent in filling:
-            parents[k] = areas.next_seen(k)
-    lines = set(range(len(paths))) - set(areas.around)
-    kept = sorted(lines | (set(parents) - filling))
-    place = {k: at for at, k in enumerate(kept)}
-    return Nested(
-        kept,
-        [place.get(parents.get(k, -1), -1) for k in kept],
-        any(areas.is_white(k) for k in areas.outlines if areas.is_hidden(k)),
-        areas.cross([k for k in parents if k not in filling]),
-    )
+    through: tuple[int, ...] = ()
 
 
 @dataclass
-class _Areas:
+class Areas:
     """Closed sub-paths by their places, and what is painted within each."""
 
     paths: Sequence[SubPath]
@@ -113,7 +67,9 @@ class _Areas:
     def polygons(self) -> dict[int, FloatArray]:
         """Vertices of the closed ones, as parts of the largest coordinate and on a grid."""
         found = {
-            k: _polygon(path.pieces) for k, path in enumerate(self.paths) if _is_closed(path.pieces)
+            k: polygon_of(path.pieces)
+            for k, path in enumerate(self.paths)
+            if is_closed(path.pieces)
         }
         largest = max((float(np.abs(points).max()) for points in found.values()), default=1.0)
         # Without negative zeros: what coincides is told by its bytes.
@@ -129,10 +85,10 @@ class _Areas:
 
     @cached_property
     def outlines(self) -> list[int]:
-        """One of those that coincide each: the last that is filled, or the first."""
+        """One of those that coincide each: the last that is filled, or the last."""
         groups = {id(group): group for group in self.twins.values()}.values()
         return sorted(
-            max(group, key=lambda k: k if self.paths[k].paint.fill else -k - 1) for group in groups
+            max(group, key=lambda k: (bool(self.paths[k].paint.fill), k)) for group in groups
         )
 
     @cached_property
@@ -161,32 +117,39 @@ class _Areas:
     def tops(self) -> dict[int, tuple[Top, Top]]:
         """What is seen directly within each outline and directly around it."""
         return {
-            k: (self._top([*self.twins[k], *self.around[k]]), self._top(self.around[k]))
+            k: (self.top([*self.twins[k], *self.around[k]]), self.top(self.around[k]))
             for k in self.outlines
         }
 
-    def _top(self, within: Sequence[int]) -> Top:
+    def top(self, within: Sequence[int]) -> Top:
         """What is seen within some outlines, the smallest first."""
         by_element: dict[int, list[int]] = {}
         for k in within:
             if self.paths[k].paint.fill:
                 by_element.setdefault(self.paths[k].element, []).append(k)
-        from_above = sorted(by_element, reverse=True)
-        top = next((one for one in from_above if self._is_filled(by_element[one])), None)
-        if top is not None:
-            color = self.paths[by_element[top][0]].paint.fill
-            return Top(top, None if color == self.paper else color)
+        shown: list[int] = []  # from above to what nothing shows through
+        for one in sorted(by_element, reverse=True):
+            if self.is_filled(by_element[one]):
+                shown.append(one)
+                if self.paths[by_element[one][0]].paint.fill_opacity == 1.0:
+                    break
+        if shown:
+            color = None
+            for one in reversed(shown):
+                paint = self.paths[by_element[one][0]].paint
+                color = blended(paint.fill or BLACK, paint.fill_opacity, color)
+            return Top(shown[0], None if color == self.paper else color, tuple(shown[1:]))
         # What is only stroked is an outline, not a colour: each its own.
         stroked = (k for k in within if not self.paths[k].paint.fill)
         return Top(-1, next((f"within {k}" for k in stroked), None))
 
-    def _is_filled(self, ones: Sequence[int]) -> bool:
+    def is_filled(self, ones: Sequence[int]) -> bool:
         """Whether an element fills what lies within some of its sub-paths."""
         if ones and self.paths[ones[0]].paint.even_odd:
             return len(ones) % 2 == 1
         return sum(self.turns[k] for k in ones) != 0
 
-    def _own(self, k: int) -> list[int]:
+    def own(self, k: int) -> list[int]:
         """Sub-paths of the same filled element around one."""
         path = self.paths[k]
         if not path.paint.fill:
@@ -195,8 +158,8 @@ class _Areas:
 
     def _bounds_own(self, k: int) -> bool:
         """Whether its element is filled on one side of it only."""
-        own = self._own(k)
-        return self._is_filled(own) != self._is_filled([k, *own])
+        own = self.own(k)
+        return self.is_filled(own) != self.is_filled([k, *own])
 
     @cached_property
     def seen(self) -> set[int]:
@@ -213,13 +176,66 @@ class _Areas:
         shown = {None if color == self.paper else color for color in strokes if color}
         return bool({beside.color, *shown} - {within.color})
 
+    def beneath(self, k: int) -> Top:
+        """What a sub-path is painted on."""
+        return self.top(self.under(k, [*self.twins.get(k, []), *self.around.get(k, [])]))
+
+    def under(self, k: int, ones: Sequence[int]) -> list[int]:
+        """Those of some sub-paths whose elements are painted before that of another one."""
+        return [j for j in ones if self.paths[j].element < self.paths[k].element]
+
+    def color(self, top: Top) -> str | None:
+        """A colour that is seen, no stroke alone."""
+        return top.color if top.element >= 0 else None
+
     def is_hidden(self, k: int) -> bool:
-        """Whether an outline that is not seen is white on white or painted over."""
-        if k in self.seen:
-            return False
-        within, beside = self.tops[k]
-        over = min(within.element, beside.element) > self.paths[k].element
-        return within.color is None or (over and within.color != self.paths[k].paint.fill)
+        """Whether an outline that is nowhere seen is white on white or painted over."""
+        return k in self._unseen and k not in self.partly_seen
+
+    @cached_property
+    def _unseen(self) -> list[int]:
+        """Outlines that are white on white or painted over where most of them lies."""
+        found = []
+        for k in self.outlines:
+            within, beside = self.tops[k]
+            over = min(within.element, beside.element) > self.paths[k].element
+            hidden = within.color is None or (over and within.color != self.paths[k].paint.fill)
+            if hidden and k not in self.seen:
+                found.append(k)
+        return found
+
+    @cached_property
+    def partly_seen(self) -> set[int]:
+        """Those of them that change what is seen somewhere within them or along their border."""
+        asked = [k for k in self._unseen if self.paths[k].paint.fill]
+        count = max(1, min(PLACES, ALL_PLACES // max(1, len(asked))))
+        return {
+            k
+            for k, within in zip(asked, self.around_places(asked, count), strict=True)
+            if self._shows(k, within)
+        }
+
+    def _shows(self, k: int, within: list[list[int]]) -> bool:
+        """Whether an outline shows in one of some places, told by the outlines around each."""
+        element = self.paths[k].element
+        if not self.is_filled([k, *self.own(k)]):  # a hole
+            tops = [self.top(around) for around in within]
+            fill = self.paths[k].paint.fill
+            return any(top.element < element and self.color(top) != fill for top in tops)
+        for around in within:
+            others = [j for j in around if j not in self.twins[k]]
+            without = self.top([j for j in others if self.paths[j].element != element])
+            top = self.top(around)
+            if top.element == element and top.color != self.color(without):
+                return True
+        return False
+
+    def around_places(self, asked: Sequence[int], count: int) -> list[list[list[int]]]:
+        """The outlines around places within each of some outlines; see `places_within`."""
+        keys, polygons = [*self.polygons], [*self.polygons.values()]
+        places = [places_within(self.polygons[k], count) for k in asked]
+        held = iter(holding(np.concatenate([np.empty((0, 2)), *places]), polygons))
+        return [[[keys[j] for j in next(held)] for _ in points] for points in places]
 
     def is_white(self, k: int) -> bool:
         """Whether an outline is that of a white area."""
@@ -228,7 +244,7 @@ class _Areas:
     def parent(self, k: int) -> int:
         """The outline directly around one: of its own element, or any that is seen; or -1."""
         if self._bounds_own(k):
-            own = (other for other in self._own(k) if self._bounds_own(other))
+            own = (other for other in self.own(k) if self._bounds_own(other))
             found = next((other for other in own if other in self.tops), None)
             if found is not None:
                 return found
@@ -239,58 +255,10 @@ class _Areas:
         return next((other for other in self.around[k] if other in self.seen), -1)
 
     def cross(self, kept: Iterable[int]) -> bool:
-        """Whether areas that are kept lie partly over each other, or white ones over them."""
-        kept = set(kept)
-        asked = [
-            k for k in self.outlines if self.paths[k].paint.fill and (k in kept or self.is_white(k))
-        ]
-        lines = [np.concatenate([self.polygons[k], self.polygons[k][:1]]) for k in asked]
-        for pair in ({asked[i], asked[j]} for i, j in crossing_pairs(lines)):
-            left_out = pair - kept
-            if not left_out or (len(left_out) == 1 and max(pair) in left_out):
-                return True
-        return any(
-            not self.paths[k].paint.even_odd and self_crossings(line) and _winds_twice(line)
-            for k, line in zip(asked, lines, strict=True)
-            if k in kept
+        """Whether areas that are kept lie partly over each other or run around something twice."""
+        filled = [k for k in kept if self.paths[k].paint.fill]
+        lines = [np.concatenate([self.polygons[k], self.polygons[k][:1]]) for k in filled]
+        return bool(crossing_pairs(lines)) or any(
+            not self.paths[k].paint.even_odd and self_crossings(line) and winds_twice(line)
+            for k, line in zip(filled, lines, strict=True)
         )
-
-
-def _winds_twice(line: FloatArray) -> bool:
-    """Whether a closed line runs around some place beside its segments more than once."""
-    begins, ends = line[:-1], line[1:]
-    chosen = np.unique(np.linspace(0, len(begins) - 1, MOST_ASKED).astype(int))
-    along = ends[chosen] - begins[chosen]
-    beside = 0.01 * np.stack([-along[:, 1], along[:, 0]], axis=-1)
-    on = [begins[chosen] + share * along for share in (0.1, 0.5, 0.9)]
-    for x, y in np.concatenate([points + side for points in on for side in (beside, -beside)]):
-        up = (begins[:, 1] <= y) & (ends[:, 1] > y)
-        down = (begins[:, 1] > y) & (ends[:, 1] <= y)
-        sides = ends - begins
-        left = sides[:, 0] * (y - begins[:, 1]) - sides[:, 1] * (x - begins[:, 0])
-        if abs(int((up & (left > 0)).sum()) - int((down & (left < 0)).sum())) > 1:
-            return True
-    return False
-
-
-def _is_closed(pieces: Sequence[Piece]) -> bool:
-    return bool((pieces[0].control_points[0] == pieces[-1].control_points[-1]).all())
-
-
-def _polygon(pieces: Sequence[Piece]) -> FloatArray:
-    """Vertices of a closed outline, the ends of chords of its pieces."""
-    return np.concatenate([_chords(piece) for piece in pieces])
-
-
-def _chords(piece: Piece) -> FloatArray:
-    """Points evenly spaced in the parameter, the first one included."""
-    points = piece.control_points
-    count = CHORDS if piece.degree > 1 else CHORDS_OF_A_LINE
-    if piece.arc is not None:
-        count *= math.ceil(abs(piece.arc.sweep) / (0.5 * math.pi))
-        return piece.arc.at(np.arange(count) / count)
-    weight = np.arange(count)[:, None] / count
-    layers = [np.broadcast_to(point, (count, 2)) for point in points]
-    while len(layers) > 1:  # de Casteljau
-        layers = [(1 - weight) * a + weight * b for a, b in pairwise(layers)]
-    return layers[0]

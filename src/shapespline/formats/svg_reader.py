@@ -9,6 +9,7 @@ are not.
 from __future__ import annotations
 
 import io
+import math
 import warnings
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
@@ -18,7 +19,8 @@ import numpy as np
 from shapespline.errors import FormatError, SkippedContentWarning, caller_level
 from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import SAME_END, bezier, closed_up
-from shapespline.formats.svg_areas import Nested, SubPath, nested_as_painted
+from shapespline.formats.svg_areas import SubPath
+from shapespline.formats.svg_looks import nested_as_painted, side_by_side
 from shapespline.formats.svg_paint import paint_of
 from shapespline.formats.svg_tree import prepared
 from shapespline.geometry import Outlines
@@ -40,8 +42,9 @@ def read(path: Path) -> Outlines:
     of their size. A sub-path that is filled is closed by a line, as it is when painted; one with
     fill="none" stays as it is. y is turned over within the view box, which is the frame. Where
     width or height have a unit of length (mm, cm, in, pt, pc, Q), coordinates are in that unit,
-    otherwise they are those of the view box, "px". Colours are not kept, but tell holes: an outline
-    inside another one is its hole where the colour that is seen changes across it.
+    otherwise they are those of the view box, "px". An outline inside another one is its hole where
+    the colour that is seen changes across it. Colours and strokes are kept; a drawing of areas that
+    are all black has none.
 
     Parameters
     ----------
@@ -61,12 +64,12 @@ def read(path: Path) -> Outlines:
     Warns
     -----
     SkippedContentWarning
-        If there is text, a picture, a clip path, a mask or a white ground: those are left out; and
-        if areas lie partly over each other.
+        If there is text, a picture, a clip path, a mask, a gradient, a dash or a white ground:
+        those are left out, gradients but for their mean; and if areas lie partly over each other.
     """
     page = prepared(path.read_bytes())
     paths = list(_sub_paths(page.root))
-    nested = Nested([*range(len(paths))], None) if page.tiled else nested_as_painted(paths)
+    nested = side_by_side(paths) if page.tiled else nested_as_painted(paths)
     skipped = [*page.skipped, "white areas on white"] if nested.white else page.skipped
     if skipped:
         warnings.warn(
@@ -92,7 +95,17 @@ def read(path: Path) -> Outlines:
     across, down = page.scale
     scale, shift = np.diag([across, -down]), np.array([0.0, height * down])
     turned = [[piece.moved(scale, shift) for piece in pieces] for pieces in curves]
-    return Outlines(turned, page.frame, page.unit, nested.parents)
+    colors, widths, strokes = zip(*nested.looks, strict=True)
+    pen = math.sqrt(across * down)
+    return Outlines(
+        turned,
+        page.frame,
+        page.unit,
+        nested.parents,
+        colors,
+        [None if width is None else pen * width for width in widths],
+        strokes,
+    )
 
 
 def _sub_paths(root: ElementTree.Element) -> Iterator[SubPath]:

@@ -2,7 +2,7 @@
 
 Refused: entities, and documents that grow without end. Resolved: style sheets, the page and its
 units, lengths with a unit or per cent, viewports, elements that are used again. Left out: what is
-not drawn or is no outline.
+not drawn or is no outline, and the shades of gradients.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from xml.etree import ElementTree
 from xml.parsers import expat
 
 from shapespline.errors import FormatError
-from shapespline.formats.svg_paint import is_zero
+from shapespline.formats.svg_gradients import HREFS, mean_color
+from shapespline.formats.svg_paint import is_zero, share
 from shapespline.formats.svg_styles import styled
 from shapespline.formats.svg_viewports import (
     LENGTHS,
@@ -44,11 +45,12 @@ NUMBER = re.compile(r"\d+")
 MOST_NAMED = 3
 # Class of what our writer draws beneath areas that share their borders.
 UNDERLAY = "underlay"
-HREFS = ("href", "{http://www.w3.org/1999/xlink}href")
 NAMED = {"text": "text", "image": "pictures", "foreignObject": "foreign content"}
 NOT_DRAWN = ("clipPath", "mask", "pattern", "marker", "linearGradient", "radialGradient", "filter",
              "metadata", "script", "style", "title", "desc", "symbol", "defs")  # fmt: skip
-CUTTING = {"clip-path": "clip paths", "mask": "masks"}
+CUTTING = {"clip-path": "clip paths", "mask": "masks", "stroke-dasharray": "dashes of strokes",
+           "marker-start": "markers", "marker-mid": "markers",
+           "marker-end": "markers"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -165,6 +167,7 @@ class _Copier:
             name: resolved(name, value, size) if name in LENGTHS else value
             for name, value in element.attrib.items()
         }
+        self._color(attributes)
         for name, words in CUTTING.items():
             if attributes.get(name, "none") != "none":
                 self.skipped[words] = None
@@ -185,6 +188,16 @@ class _Copier:
             elif isinstance(child.tag, str) and tag not in NOT_DRAWN:
                 result.append(self.plain(child, inside, size))
         return result
+
+    def _color(self, attributes: dict[str, str]) -> None:
+        """Put their mean colour in the place of gradients."""
+        for name in ("fill", "stroke"):
+            found = mean_color(attributes.get(name, ""), self.ids)
+            if found is not None:
+                self.skipped["shades of gradients"] = None
+                attributes[name], opacity = found
+                opacity *= share(attributes, f"{name}-opacity", 1.0)
+                attributes[f"{name}-opacity"] = repr(opacity)
 
     def _count(self, element: Element) -> None:
         self.elements_left -= 1

@@ -18,7 +18,7 @@ PIXEL_MILLIMETRES = 25.4 / 96
 LENGTH = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(px|mm|cm|in|pt|pc|Q|%)?\s*")
 ACROSS = ("x", "width", "rx", "cx", "x1", "x2")
 DOWN = ("y", "height", "ry", "cy", "y1", "y2")
-LENGTHS = (*ACROSS, *DOWN, "r")
+LENGTHS = (*ACROSS, *DOWN, "r", "stroke-width")
 # What makes an element a viewport.
 VIEWPORT = ("x", "y", "width", "height", "viewBox", "preserveAspectRatio")
 

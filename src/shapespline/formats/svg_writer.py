@@ -10,16 +10,17 @@ import numpy as np
 from shapespline.errors import FormatError, InvalidInputError
 from shapespline.formats.cubics import (
     as_cubics,
+    broadest,
     cubics_and_arcs,
-    groups,
     is_straight,
     is_tiled,
+    painted,
     turning_points,
 )
 from shapespline.formats.svg_tree import UNDERLAY
 from shapespline.units import MILLIMETRES, PIXEL
 from shapespline.validation import is_number
-from shapespline.values import Piece, ViewBox
+from shapespline.values import Piece, Stroke, ViewBox
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 PAGE_UNITS = (PIXEL, "mm", "cm", "in", "pt", "pc", "Q")
 # Of the longer side: the border around a drawing without a frame, and the width of a stroke.
 MARGIN, STROKE = 0.02, 0.0025
+# The colour of what has none of its own.
+INK = "black"
 # View boxes that begin so many times their size from the origin are far: there coordinates in
 # single precision are off by a fortieth of a pixel of a screen of 4000 (FMT-14).
 FAR = 100.0
@@ -68,7 +71,7 @@ def encode(
     """Text of an SVG file with one path for each outline and its holes.
 
     Closed curves are filled by the even-odd rule, black if they have no colour of their own; open
-    ones are stroked and unfilled, strokes of known width by a round pen of this width. y is
+    ones are stroked and unfilled, strokes of known width by a pen of this width. y is
     turned over once, within the view box: the frame, or without one the bounding box of the curves
     with a small margin. Coordinates are those of the data, so that they read back the same; of a
     view box far from the origin (maps) they count from its corner, in a group that is moved there,
@@ -125,9 +128,9 @@ def encode(
     """
     if stroke_width is not None and not (is_number(stroke_width) and 0 < stroke_width < math.inf):
         raise InvalidInputError(f"stroke_width must be a positive number, got {stroke_width!r}")
-    paths = groups(drawing)
+    paths = painted(drawing)
     pieces = [as_cubics(fit) for fit in drawing]
-    placement = _placement(drawing.frame, pieces, stroke_width or 0.0)
+    placement = _placement(drawing.frame, pieces, stroke_width or broadest(drawing))
     box = placement.view_box
     width = stroke_width or _rounded(STROKE * max(box.width, box.height))
     tiled = fill and is_tiled(drawing)
@@ -143,13 +146,19 @@ def encode(
     if tiled:
         lines += _underlay(width)
     for group in paths:
-        filled = fill and drawing.is_area(group[0])
-        color = drawing.colors[group[0]] or "black"
-        style = f'fill="{color}" fill-rule="evenodd"'
-        if not filled:
-            style = _stroked(width, None if stroke_width else drawing.widths[group[0]])
-        if tiled:
-            style += f' stroke="{color}"'
+        first = group[0]
+        own = None if stroke_width else drawing.widths[first]
+        color = drawing.colors[first] or INK
+        if fill and drawing.is_filled(first):
+            # What crosses itself is filled as a whole, as it was painted, unless it has holes.
+            alone = drawing.colors[first] and len(group) == 1
+            style = f'fill="{color}"' + ("" if alone else ' fill-rule="evenodd"')
+            if drawing.widths[first] is not None:
+                style += f" {_stroked(width, own, drawing.strokes[first])}"
+            elif tiled:
+                style += f' stroke="{color}"'
+        else:
+            style = f'fill="none" {_stroked(width, own, drawing.strokes[first])}'
         data = "".join(_path_data(drawing.fits[index], placement) for index in group)
         lines.append(f'<path {style} d="{data}"/>')
     if tiled:
@@ -162,11 +171,13 @@ def encode(
     return "\n".join(lines).encode("utf-8")
 
 
-def _stroked(width: float, own: float | None) -> str:
-    """Attributes of a stroke: thin, or as wide as it was drawn, with round ends."""
-    ends = ' stroke-linecap="round"' if own else ""
-    shown = f'stroke-width="{_number(own or width)}"{ends} stroke-linejoin="round"'
-    return f'fill="none" stroke="black" {shown}'
+def _stroked(width: float, own: float | None, stroke: Stroke | None) -> str:
+    """Attributes of a stroke: thin and round at its turns, or as it was drawn."""
+    look = stroke or Stroke(INK, "round" if own else "butt")
+    # What SVG takes without being told is left out.
+    cap = "" if look.cap == "butt" else f' stroke-linecap="{look.cap}"'
+    join = "" if look.join == "miter" else f' stroke-linejoin="{look.join}"'
+    return f'stroke="{look.color}" stroke-width="{_number(own or width)}"{cap}{join}'
 
 
 def _underlay(width: float) -> list[str]:

@@ -30,7 +30,13 @@ from shapespline.geometry.nearest import (
     nearest,
     nondecreasing,
 )
-from shapespline.geometry.nesting import all_containing, containing, parents_of, signed_area
+from shapespline.geometry.nesting import (
+    all_containing,
+    containing,
+    holding,
+    parents_of,
+    signed_area,
+)
 from shapespline.geometry.normal_motion import curve_motion, unit_normals
 from shapespline.geometry.offsetting import OffsetLine, Source, offset_lines
 from shapespline.geometry.parametrization import PARAMETRIZATIONS, greville_matched, parametrize
@@ -73,6 +79,7 @@ __all__ = [
     "exact_drawing",
     "exact_fit",
     "greville_matched",
+    "holding",
     "hooks",
     "in_unit",
     "joined",

@@ -20,7 +20,7 @@ from shapespline.values import Drawing, Fit, Piece, Status
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from shapespline.values import ViewBox
+    from shapespline.values import Stroke, ViewBox
 from shapespline.geometry.flattening import sampled
 
 
@@ -40,12 +40,17 @@ class Outlines:
     parents : sequence of int, optional
         For each outline the one directly around it, -1 for none, where the file tells more of it
         than where they lie.
+    colors, widths, strokes : sequence, optional
+        For each outline, as of a :class:`Drawing`.
     """
 
     curves: Sequence[Sequence[Piece]]
     frame: ViewBox | None = None
     unit: str | None = None
     parents: Sequence[int] | None = None
+    colors: Sequence[str | None] | None = None
+    widths: Sequence[float | None] | None = None
+    strokes: Sequence[Stroke | None] | None = None
 
 
 def exact_drawing(outlines: Outlines, *, sampling: float | None = None) -> Drawing:
@@ -66,7 +71,15 @@ def exact_drawing(outlines: Outlines, *, sampling: float | None = None) -> Drawi
     parents = outlines.parents
     if parents is None:
         parents = parents_of([fit.contour for fit in fits])
-    return Drawing(fits, parents, outlines.frame, outlines.unit)
+    return Drawing(
+        fits,
+        parents,
+        outlines.frame,
+        outlines.unit,
+        colors=outlines.colors,
+        widths=outlines.widths,
+        strokes=outlines.strokes,
+    )
 
 
 def exact_fit(pieces: Sequence[Piece], *, sampling: float | None = None) -> Fit:

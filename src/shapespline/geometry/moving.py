@@ -99,7 +99,8 @@ def transformed_drawing(drawing: Drawing, matrix: ArrayLike) -> Drawing:
         frame,
         drawing.unit,
         colors=drawing.colors,
-        widths=scaled_widths(drawing, factor),
+        widths=scaled_widths(drawing.widths, factor),
+        strokes=drawing.strokes,
     )
 
 

@@ -91,6 +91,35 @@ def all_containing(polygons: Sequence[FloatArray]) -> list[list[int]]:
     return around
 
 
+def holding(points: FloatArray, polygons: Sequence[FloatArray]) -> list[list[int]]:
+    """For each point the polygons that it lies in, by the even-odd rule.
+
+    Parameters
+    ----------
+    points : ndarray, shape (m, 2)
+    polygons : sequence of ndarray, shape (n_i, 2)
+        Vertices of closed polygons in any order.
+
+    Examples
+    --------
+    >>> square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    >>> holding(np.array([(0.5, 0.5), (2.0, 2.0), (9.0, 9.0)]), [square, 4 * square - 1])
+    [[0, 1], [1], []]
+    """
+    if not len(points):
+        return []
+    sides = _sides(polygons)
+    left, low = np.array([polygon.min(axis=0) for polygon in polygons]).T.copy()
+    right, high = np.array([polygon.max(axis=0) for polygon in polygons]).T.copy()
+    found = []
+    for point in points:
+        x, y = point
+        boxed = np.flatnonzero((left <= x) & (right >= x) & (low <= y) & (high >= y))
+        held = _held(point[None], [sides[k] for k in boxed]) if len(boxed) else boxed
+        found.append(boxed[held > 0].tolist())
+    return found
+
+
 def _sides(polygons: Sequence[FloatArray]) -> list[FloatArray]:
     """Both ends of each side, shape (n_i, 4)."""
     return [np.hstack([points, np.roll(points, -1, axis=0)]) for points in polygons]

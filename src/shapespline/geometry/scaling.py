@@ -91,12 +91,19 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
             unit,
             left_out=left_out,
             colors=value.colors,
-            widths=scaled_widths(value, factor),
+            widths=scaled_widths(value.widths, factor),
+            strokes=value.strokes,
             reference=reference,
         )
     if isinstance(value, Outlines):
         curves = [_pieces(item, factor) for item in value.curves]
-        return Outlines(curves, frame, unit, value.parents)
+        return replace(
+            value,
+            curves=curves,
+            frame=frame,
+            unit=unit,
+            widths=scaled_widths(value.widths, factor),
+        )
     fits = [_fit(item, factor) for item in value]
     return Drawing(
         fits,
@@ -104,15 +111,20 @@ def scaled(value: Value, factor: float, unit: str | None) -> Value:
         frame,
         unit,
         colors=value.colors,
-        widths=scaled_widths(value, factor),
+        widths=scaled_widths(value.widths, factor),
+        strokes=value.strokes,
         reference=reference,
         regularities=[one._replace(off=factor * one.off) for one in value.regularities],
     )
 
 
-def scaled_widths(value: Shape | Drawing, factor: float) -> list[float | None]:
+def scaled_widths(
+    widths: Sequence[float | None] | None, factor: float
+) -> list[float | None] | None:
     """Of strokes, multiplied."""
-    return [None if width is None else factor * width for width in value.widths]
+    if widths is None:
+        return None
+    return [None if width is None else factor * width for width in widths]
 
 
 def _contour(contour: Contour, factor: float) -> Contour:

@@ -78,7 +78,7 @@ class Asked:
     def shared_boundaries(self) -> bool:
         """Whether boundaries are fitted once, as the command line does for areas of colours."""
         within = self.common.get("tolerance") is not None and not self.common.get("outliers")
-        return within and any(self.document.shape.colors)
+        return within and self.document.is_picture and any(self.document.shape.colors)
 
     def settings(self, index: int) -> Settings:
         """The settings of an outline."""

@@ -17,13 +17,17 @@ from shapespline.values.piece import CORNER_TURN, EXACT_TURN, SAME_FACTOR, SMOOT
 from shapespline.values.regularity import Regularity
 from shapespline.values.shape import Shape, checked_parents, nesting_depth
 from shapespline.values.snapshot import Snapshot
+from shapespline.values.stroke import BLACK, CAPS, JOINS, Stroke
 from shapespline.values.uncertainty import Band, Uncertainty
 from shapespline.values.view_box import ViewBox
 
 __all__ = [
+    "BLACK",
+    "CAPS",
     "CORNER_TURN",
     "EXACT_TURN",
     "FULL_TURN",
+    "JOINS",
     "SAME_FACTOR",
     "SMOOTH_TURN",
     "Arc",
@@ -37,6 +41,7 @@ __all__ = [
     "Shape",
     "Snapshot",
     "Status",
+    "Stroke",
     "Uncertainty",
     "ViewBox",
     "check_count",

@@ -12,7 +12,6 @@ from shapespline.values.shape import (
     checked_colors,
     checked_parents,
     checked_reference,
-    checked_widths,
     counted,
     nesting_depth,
 )
@@ -32,6 +31,7 @@ from shapespline.values.exchanged import Exchanged
 from shapespline.values.fit import Fit
 from shapespline.values.regularity import OutlineRegularity, Regularity
 from shapespline.values.shown import Shown
+from shapespline.values.stroke import Stroke, checked_strokes, checked_widths
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -49,10 +49,13 @@ class Drawing(ByValue, Shown, Exchanged):
         Of the coordinates, one of :data:`shapespline.units.UNITS`, if known.
     colors : sequence of str or None, optional
         For each fit the colour of the area within it, as #rrggbb; None, the default, for a hole
-        and where no colour is known.
+        and where no colour is known. One of a fit within another is painted upon it.
     widths : sequence of float or None, optional
-        For each fit along the centre line of a stroke how wide the stroke is, in the unit of the
-        coordinates; None, the default, for outlines.
+        For each fit that a stroke runs along, how wide it is, in the unit of the coordinates;
+        None, the default, for others. Without a colour the stroke alone is painted.
+    strokes : sequence of Stroke or None, optional
+        How strokes of those widths look that were drawn; None, the default, for the centre lines of
+        a picture's strokes, which are shown by a round black pen and bound no area.
     reference : str, optional
         Coordinate reference system of the points, such as "EPSG:25832", if known.
     regularities : sequence of Regularity, optional
@@ -66,6 +69,7 @@ class Drawing(ByValue, Shown, Exchanged):
     unit: str | None
     colors: tuple[str | None, ...]
     widths: tuple[float | None, ...]
+    strokes: tuple[Stroke | None, ...]
     reference: str | None
     regularities: tuple[OutlineRegularity, ...]
 
@@ -78,6 +82,7 @@ class Drawing(ByValue, Shown, Exchanged):
         *,
         colors: Sequence[str | None] | None = None,
         widths: Sequence[float | None] | None = None,
+        strokes: Sequence[Stroke | None] | None = None,
         reference: str | None = None,
         regularities: Sequence[Regularity] = (),
     ) -> None:
@@ -93,6 +98,7 @@ class Drawing(ByValue, Shown, Exchanged):
         object.__setattr__(self, "unit", checked_unit(unit))
         object.__setattr__(self, "colors", checked_colors(colors, len(fits)))
         object.__setattr__(self, "widths", checked_widths(widths, len(fits)))
+        object.__setattr__(self, "strokes", checked_strokes(strokes, self.widths))
         object.__setattr__(self, "reference", checked_reference(reference))
         listed = tuple(OutlineRegularity._make(one) for one in regularities)
         object.__setattr__(self, "regularities", listed)
@@ -106,7 +112,7 @@ class Drawing(ByValue, Shown, Exchanged):
         Parameters
         ----------
         shape : Shape
-            Gives nesting, frame, unit, colours, widths of strokes and coordinate reference.
+            Gives nesting, frame, unit, colours, strokes and coordinate reference.
         fits : sequence of Fit
             One for each contour, in their order.
         regularities : sequence of Regularity, optional
@@ -133,6 +139,7 @@ class Drawing(ByValue, Shown, Exchanged):
             shape.unit,
             colors=shape.colors,
             widths=shape.widths,
+            strokes=shape.strokes,
             reference=shape.reference,
             regularities=regularities,
         )
@@ -160,12 +167,19 @@ class Drawing(ByValue, Shown, Exchanged):
             self.unit,
             colors=self.colors,
             widths=self.widths,
+            strokes=self.strokes,
             reference=self.reference,
         )
 
     def is_area(self, index: int) -> bool:
-        """Whether a fit is the outline of an area: it is closed, and no line along a stroke."""
-        return self.fits[index].closed and self.widths[index] is None
+        """Whether a fit bounds an area: it is closed, and no centre line of a picture's stroke."""
+        is_center_line = self.widths[index] is not None and self.strokes[index] is None
+        return self.fits[index].closed and (not is_center_line or self.colors[index] is not None)
+
+    def is_filled(self, index: int) -> bool:
+        """Whether a fit is painted as an area: it bounds one, and is no stroke alone."""
+        is_stroke = self.widths[index] is not None and self.colors[index] is None
+        return self.is_area(index) and not is_stroke
 
     def is_hole(self, index: int) -> bool:
         """Whether the fit lies inside an odd number of others."""

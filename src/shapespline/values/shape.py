@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -14,13 +13,11 @@ if TYPE_CHECKING:
 
     from shapespline.values.view_box import ViewBox
 
-from shapespline.validation import is_number
 from shapespline.values.contour import Contour, checked_contour
 from shapespline.values.equality import ByValue
 from shapespline.values.exchanged import Exchanged
 from shapespline.values.shown import Shown
-
-_COLOR = re.compile("#[0-9a-f]{6}")
+from shapespline.values.stroke import COLOR, Stroke, checked_strokes, checked_widths
 
 
 def checked_parents(parents: Sequence[int] | None, count: int) -> tuple[int, ...]:
@@ -84,30 +81,9 @@ def checked_colors(colors: Sequence[str | None] | None, count: int) -> tuple[str
             f"colors must name one colour for each: expected {count}, got {len(colors)}"
         )
     for color in colors:
-        if color is not None and not (isinstance(color, str) and _COLOR.fullmatch(color)):
+        if color is not None and not (isinstance(color, str) and COLOR.fullmatch(color)):
             raise InvalidInputError(f"colors must be None or like '#ff8800', got {color!r}")
     return colors
-
-
-def checked_widths(widths: Sequence[float | None] | None, count: int) -> tuple[float | None, ...]:
-    """For each of ``count`` items the width of its stroke, None for none (the default).
-
-    Raises
-    ------
-    InvalidInputError
-        If there are not as many, or one is no positive number.
-    """
-    if widths is None:
-        return (None,) * count
-    widths = tuple(widths)
-    if len(widths) != count:
-        raise InvalidInputError(
-            f"widths must name one width for each: expected {count}, got {len(widths)}"
-        )
-    for width in widths:
-        if width is not None and not (is_number(width) and 0 < width < float("inf")):
-            raise InvalidInputError(f"widths must be None or positive numbers, got {width!r}")
-    return tuple(None if width is None else float(width) for width in widths)
 
 
 def checked_reference(reference: object) -> str | None:
@@ -142,10 +118,13 @@ class Shape(ByValue, Shown, Exchanged):
         What the source showed besides, and the reader took for noise.
     colors : sequence of str or None, optional
         For each contour the colour of the area within it, as #rrggbb; None, the default, for a
-        hole and where no colour is known.
+        hole and where no colour is known. One of a contour within another is painted upon it.
     widths : sequence of float or None, optional
-        For each contour that is the centre line of a stroke, how wide the stroke is, in the unit of
-        the coordinates; None, the default, for others.
+        For each contour that a stroke runs along, how wide it is, in the unit of the coordinates;
+        None, the default, for others. Without a colour the stroke alone is painted.
+    strokes : sequence of Stroke or None, optional
+        How strokes of those widths look that were drawn; None, the default, for the centre lines of
+        a picture's strokes, which are shown by a round black pen and bound no area.
     reference : str, optional
         Coordinate reference system of the points, such as "EPSG:25832", if known.
 
@@ -165,6 +144,7 @@ class Shape(ByValue, Shown, Exchanged):
     left_out: tuple[Contour, ...] = field(repr=False)
     colors: tuple[str | None, ...] = field(repr=False)
     widths: tuple[float | None, ...] = field(repr=False)
+    strokes: tuple[Stroke | None, ...] = field(repr=False)
     reference: str | None = field(repr=False)
 
     def __init__(
@@ -177,6 +157,7 @@ class Shape(ByValue, Shown, Exchanged):
         left_out: Sequence[Contour] = (),
         colors: Sequence[str | None] | None = None,
         widths: Sequence[float | None] | None = None,
+        strokes: Sequence[Stroke | None] | None = None,
         reference: str | None = None,
     ) -> None:
         contours, left_out = tuple(contours), tuple(left_out)
@@ -193,6 +174,7 @@ class Shape(ByValue, Shown, Exchanged):
         object.__setattr__(self, "left_out", left_out)
         object.__setattr__(self, "colors", checked_colors(colors, len(contours)))
         object.__setattr__(self, "widths", checked_widths(widths, len(contours)))
+        object.__setattr__(self, "strokes", checked_strokes(strokes, self.widths))
         object.__setattr__(self, "reference", checked_reference(reference))
 
     def __len__(self) -> int:

@@ -1,0 +1,163 @@
+"""What of painted elements is kept, which lies in which, and how each looks.
+
+Each outline keeps the colour that its element fills it with, so that all of them are painted again
+in their order (FMT-17).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from shapespline.formats.svg_areas import PLACES, Areas
+from shapespline.formats.svg_paint import WHITE, blended, stroke_of
+from shapespline.formats.svg_polygons import DEPTHS
+from shapespline.values import BLACK
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+    from collections.abc import Set as AbstractSet
+
+    from shapespline.formats.svg_areas import SubPath
+    from shapespline.values import Stroke
+
+
+class Look(NamedTuple):
+    """The colour of the area within an outline, None for a hole or a line; and the stroke along it.
+
+    The width of the stroke is in the coordinates of the view box.
+    """
+
+    color: str | None = None
+    width: float | None = None
+    stroke: Stroke | None = None
+
+
+class Nested(NamedTuple):
+    """What of some sub-paths is seen.
+
+    Attributes
+    ----------
+    kept : list of int
+        Places of those that are, in their order.
+    parents : list of int or None
+        For each of them the one directly around it among them, -1 for none; None where their
+        places tell it.
+    looks : list of Look
+        How each of them is painted.
+    white : bool
+        Whether areas were left out that are white on white.
+    crossing : bool
+        Whether borders of areas cross each other or themselves, so that they would have to be
+        united or cut.
+    """
+
+    kept: list[int]
+    parents: list[int] | None
+    looks: list[Look]
+    white: bool = False
+    crossing: bool = False
+
+
+def nested_as_painted(paths: Sequence[SubPath]) -> Nested:
+    """Which sub-paths are seen, and which lie directly in which.
+
+    Outlines that bound no change of colour are no holes: those of an area on one of its own colour
+    stand for themselves, what is white on white or painted over is left out, and of those that
+    coincide one is kept.
+    """
+    areas = Areas(paths)
+    parents = {k: areas.parent(k) for k in areas.outlines if not areas.is_hidden(k)}
+    # Painted for itself an area of no other colour would fill a hole that belongs to what is
+    # around it.
+    filling = {
+        other
+        for k, parent in parents.items()
+        if parent >= 0 and k in areas.seen
+        for other in areas.around[k]
+        if other in parents and other not in areas.seen and parent in areas.around[other]
+    } - areas.partly_seen
+    for k, parent in parents.items():
+        if parent in filling:
+            parents[k] = areas.next_seen(k)
+    lines = set(range(len(paths))) - set(areas.around)
+    apart = _strokes_above(areas, set(parents) - filling)
+    kept = sorted(lines | (set(parents) - filling) | apart, key=lambda k: _order(areas, k))
+    place = {k: at for at, k in enumerate(kept)}
+    return Nested(
+        kept,
+        [place.get(parents.get(k, -1), -1) for k in kept],
+        _plain([_look(areas, k, parents.get(k, -1), apart) for k in kept], areas, kept),
+        any(areas.is_white(k) for k in areas.outlines if areas.is_hidden(k)),
+        areas.cross([k for k in parents if k not in filling]),
+    )
+
+
+def side_by_side(paths: Sequence[SubPath]) -> Nested:
+    """Sub-paths that our writer drew side by side: all of them are seen, and lie as they lie."""
+    areas = Areas(paths)
+    return Nested([*range(len(paths))], None, [_look(areas, k) for k in range(len(paths))])
+
+
+def _plain(looks: list[Look], areas: Areas, kept: list[int]) -> list[Look]:
+    """Looks without colours where black areas with holes and without strokes look the same."""
+    colors = {look.color for look in looks if look.color}
+    if not colors <= {BLACK, WHITE} or any(look.color and look.width for look in looks):
+        return looks
+    if any(areas.is_white(k) for k in areas.partly_seen.intersection(kept)):
+        return looks
+    return [look._replace(color=None) for look in looks]
+
+
+def _order(areas: Areas, k: int) -> tuple[int, int, int]:
+    """When a sub-path is painted: what lets others show through at once upon what it lies on.
+
+    What lies between has the colour that is seen through it.
+    """
+    path = areas.paths[k]
+    if k in areas.twins and path.paint.fill and path.paint.fill_opacity < 1.0:
+        return areas.beneath(k).element, 1, k
+    return path.element, 0, k
+
+
+def _look(areas: Areas, k: int, parent: int = -1, apart: AbstractSet[int] = frozenset()) -> Look:
+    """How a sub-path is painted that lies in another one.
+
+    A hole of its own element is cut from it, whatever is seen through it. Of strokes of outlines
+    that coincide the last one counts, but for those that are kept apart.
+    """
+    paint = areas.paths[k].paint
+    fills = k in areas.twins and paint.fill
+    color = None
+    if fills and areas.is_filled([k, *areas.own(k)]):
+        color = blended(paint.fill or BLACK, paint.fill_opacity, areas.color(areas.beneath(k)))
+        seen = areas.tops[k][0] if k in areas.tops else areas.beneath(k)
+        if areas.paths[k].element in seen.through:
+            color = areas.color(seen) or WHITE
+    elif fills and parent >= 0 and parent not in areas.own(k):
+        color = areas.color(areas.tops[k][0]) or WHITE
+    twins = [k] if k in apart else [j for j in areas.twins.get(k, [k]) if j not in apart]
+    stroked = [j for j in twins if areas.paths[j].paint.stroke]
+    # Strokes run along the holes of an element as along its outline, which tells them.
+    if not stroked or (fills and color is None):
+        return Look(color)
+    last = areas.paths[stroked[-1]].paint
+    return Look(color, last.width, stroke_of(last, areas.color(areas.beneath(k))))
+
+
+def _strokes_above(areas: Areas, kept: Iterable[int]) -> set[int]:
+    """Strokes along an outline that something is painted over between its fill and the stroke.
+
+    Painted with the fill they would be covered on its inner side.
+    """
+    last = {}
+    for k in kept:
+        stroked = [j for j in areas.twins[k] if areas.paths[j].paint.stroke]
+        if stroked and stroked[-1] > k and areas.paths[k].paint.fill:
+            last[k] = stroked[-1]
+    found = set()
+    for k, within in zip(last, areas.around_places([*last], PLACES), strict=True):
+        near = within[: len(within) // (1 + len(DEPTHS))]
+        tops = (areas.top(areas.under(last[k], around)) for around in near)
+        if any(top.element > areas.paths[k].element for top in tops):
+            found.add(last[k])
+    return found
