@@ -67,6 +67,20 @@ PICTURES = {
         + rect(40, 20, 20, 60, fill="white"),
         {(50, 10): RED, (50, 40): "#ffffff", (50, 60): "#ffffff", (50, 90): BLUE},
     ),
+    "a bar that runs the other way": (
+        rect(0, 0, 100, 50, fill=RED)
+        + rect(0, 50, 100, 50, fill=BLUE)
+        + '<path fill="white" d="M40 20V80H60V20z"/>',
+        {(50, 40): "#ffffff", (50, 60): "#ffffff"},
+    ),
+    "a frame with a stroke": (
+        ring(20, 20, 60, 60, 15, fill=GREEN, stroke=RED, stroke_width=4),
+        {(27, 50): GREEN, (50, 50): "#ffffff", (20, 50): RED, (35, 50): RED},
+    ),
+    "a black frame within a line": (
+        rect(5, 5, 90, 90, fill="none", stroke="black", stroke_width=4) + ring(20, 20, 60, 60, 15),
+        {(5, 50): "#000000", (12, 50): "#ffffff", (27, 50): "#000000", (50, 50): "#ffffff"},
+    ),
     "white corners that meet a border": (
         rect(0, 0, 100, 50, fill=RED)
         + rect(0, 50, 100, 50, fill=BLUE)
