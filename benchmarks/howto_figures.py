@@ -24,6 +24,8 @@ from benchmarks.figure_style import save
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from shapespline.typing import FloatArray
+
 ROOT = Path(__file__).parent.parent
 DATA = ROOT / "examples" / "data"
 TARGET = ROOT / "docs" / "figures" / "howto"
@@ -173,9 +175,56 @@ def centerlines(_: Path) -> None:
     save(figure, TARGET / "centerlines.png", dpi=80)
 
 
+def boat() -> str:
+    """A boat as programs export it that know polygons alone: a node each pixel or two."""
+    t = np.linspace(0, 1, 120)
+    disc = 100 + 88 * np.column_stack([np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)])[:-1]
+    low = disc[disc[:, 1] > 148]
+    ends = low[:, 0].max(), low[:, 0].min()
+    swell = np.column_stack([ends[1] + (ends[0] - ends[1]) * t, 148 + 3 * np.sin(5 * np.pi * t)])
+    sea = np.vstack([swell, low[np.argsort(-low[:, 0])]])
+    hull = np.column_stack([60 + 84 * t, 128 + 26 * np.sin(np.pi * t) ** 0.6])
+    sail = np.vstack([np.column_stack([102 + 44 * t - 26 * t * (1 - t), 38 + 80 * t]), [102, 118]])
+    jib = np.vstack([np.column_stack([96 - 40 * t + 14 * t * (1 - t), 48 + 70 * t]), [96, 118]])
+    wave = np.column_stack([50 + 100 * t, 164 + 3 * np.sin(8 * np.pi * t)])
+
+    def path(points: FloatArray, end: str, **style: str) -> str:
+        told = " ".join(f'{name.replace("_", "-")}="{value}"' for name, value in style.items())
+        steps = "L".join(f"{x:.3f} {y:.3f}" for x, y in points)
+        return f'<path {told} d="M{steps}{end}"/>'
+
+    edge = {"stroke": "#1b2a49", "stroke_width": "3", "stroke_linejoin": "round"}
+    body = [
+        path(disc, "z", fill="#bfe3f2", **edge),
+        path(sea, "z", fill="#2f7fb5"),
+        path(wave, "", fill="none", stroke="#ffffff", stroke_width="3", stroke_linecap="round"),
+        path(hull, "z", fill="#c0392b", **edge),
+        path(sail, "z", fill="#ffffff", **edge),
+        path(jib, "z", fill="#f2b632", **edge),
+    ]
+    return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 200">{"".join(body)}</svg>'
+
+
+def drawings(folder: Path) -> None:
+    """A drawing of many nodes, and what is left of them."""
+    (folder / "boat.svg").write_text(boat())
+    run(folder, "fit", "boat.svg", "-t", "0.15", "-o", "smooth.svg")
+    figure, axes = canvas(2)
+    for one, name in zip(axes, ("boat.svg", "smooth.svg"), strict=True):
+        drawing = ss.read(folder / name)
+        ss.write(folder / "shown.png", drawing)
+        one.imshow(Image.open(folder / "shown.png"), extent=(0, 200, 0, 200))
+        ends = [piece.control_points[0] for fit in drawing for piece in fit.pieces]
+        one.plot(*np.array(ends).T, "o", color=BLUE, mfc="white", ms=3.5, mew=0.8)
+        points = sum(fit.n_stored_points for fit in drawing)
+        one.set_title(f"{name}: {points} points, {(folder / name).stat().st_size / 1000:.0f} kB")
+    save(figure, TARGET / "drawings.png", dpi=80)
+
+
 def main() -> None:
     """All of them, in a temporary folder."""
     pages = (logo_to_dxf, machines, leaf_to_step, points_to_svg, folder_of_files, centerlines)
+    pages += (drawings,)
     for page in pages:
         with tempfile.TemporaryDirectory() as folder:
             page(Path(folder))

@@ -33,8 +33,7 @@ if TYPE_CHECKING:
 
 # The grid of the ends of chords as a part of the drawing (FMT-15).
 GRID = 1e-7
-# Places within and beside an outline where is asked what is seen, of one and of all together
-# (FMT-17).
+# Places within an outline near which is asked what is seen, of one and of all together (FMT-17).
 PLACES, ALL_PLACES = 32, 8192
 
 
@@ -193,21 +192,21 @@ class Areas:
         return k in self._unseen and k not in self.partly_seen
 
     @cached_property
-    def _unseen(self) -> list[int]:
+    def _unseen(self) -> set[int]:
         """Outlines that are white on white or painted over where most of them lies."""
-        found = []
+        found = set()
         for k in self.outlines:
             within, beside = self.tops[k]
             over = min(within.element, beside.element) > self.paths[k].element
             hidden = within.color is None or (over and within.color != self.paths[k].paint.fill)
             if hidden and k not in self.seen:
-                found.append(k)
+                found.add(k)
         return found
 
     @cached_property
     def partly_seen(self) -> set[int]:
         """Those of them that change what is seen somewhere within them or along their border."""
-        asked = [k for k in self._unseen if self.paths[k].paint.fill]
+        asked = [k for k in sorted(self._unseen) if self.paths[k].paint.fill]
         count = max(1, min(PLACES, ALL_PLACES // max(1, len(asked))))
         return {
             k
