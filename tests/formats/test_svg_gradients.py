@@ -71,6 +71,9 @@ def test_areas_of_two_patterns_have_two_colours():
         ('fill="red" opacity="0.5" fill-opacity="0.5"', "#ffbfbf"),
         ('fill="#f00"', "#ff0000"),
         ('style="fill:hsl(120, 100%, 50%)"', "#00ff00"),
+        ('fill="rgb(255 0 0 / 20%)"', "#ffcccc"),
+        ('fill="rebeccapurple"', "#663399"),
+        ('fill="url(#nowhere) #00ff00"', "#00ff00"),
     ],
 )
 def test_what_lets_paper_through_is_paler(style, color):
@@ -79,7 +82,12 @@ def test_what_lets_paper_through_is_paler(style, color):
 
 @pytest.mark.parametrize(
     ("style", "words"),
-    [('stroke-dasharray="4 2"', "dashes of strokes"), ('marker-mid="url(#m)"', "markers")],
+    [
+        ('stroke-dasharray="4 2"', "dashes of strokes"),
+        ('marker-mid="url(#m)"', "markers"),
+        ('style="marker-mid: url(#m)"', "markers"),
+        ('style="marker: url(#m)"', "markers"),
+    ],
 )
 def test_what_is_not_kept_of_strokes_is_said(style, words):
     with pytest.warns(SkippedContentWarning, match=words):

@@ -71,6 +71,14 @@ def _with_holes(drawing: Drawing, holes: dict[int, int]) -> list[list[int]]:
     return list(found.values())
 
 
+def is_whole(drawing: Drawing, group: list[int]) -> bool:
+    """Whether a coloured area without holes is filled wherever its outline runs around.
+
+    What crosses itself was painted so, most often; everything else is filled by the even-odd rule.
+    """
+    return len(group) == 1 and drawing.colors[group[0]] is not None
+
+
 def broadest(drawing: Drawing) -> float:
     """Width of the broadest stroke, 0 without one: so far a page reaches beyond its curves."""
     return max((width for width in drawing.widths if width), default=0.0)

@@ -50,7 +50,7 @@ def encode(
     arc_tolerance: float | None = None,
     release: str = "R2000",
 ) -> bytes:
-    """Text of a DXF file; areas of a colour lie on a layer color_rrggbb.
+    """Text of a DXF file; areas and strokes of a colour lie on a layer color_rrggbb.
 
     Parameters
     ----------

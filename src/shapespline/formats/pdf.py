@@ -12,6 +12,7 @@ from shapespline.formats.cubics import (
     broadest,
     is_straight,
     is_tiled,
+    is_whole,
     painted,
     turning_points,
 )
@@ -41,8 +42,8 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
     drawing : Drawing
         In its unit (pixels at 96 per inch); without one the longer side is that of A4.
     fill : bool
-        Fill closed curves by the even-odd rule, black if they have no colour of their own;
-        otherwise they are stroked like open ones.
+        Fill closed curves, black ones by the even-odd rule; otherwise they are stroked like open
+        ones. Strokes of their own are drawn with them.
 
     Returns
     -------
@@ -63,7 +64,7 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
         data = "\n".join(
             _path(scale * (cubics[index] - corner), drawing.fits[index].closed) for index in group
         )
-        paths.append((data, *_paint(drawing, group[0], scale, fill=fill)))
+        paths.append((data, *_paint(drawing, group, scale, fill=fill)))
     if fill and is_tiled(drawing):
         # Beneath the areas their outlines: viewers smooth each area by itself, and what lies
         # beneath shows on the border of two. Nothing of them shows beside the picture.
@@ -89,8 +90,9 @@ def encode(drawing: Drawing, *, fill: bool = True) -> bytes:
     )
 
 
-def _paint(drawing: Drawing, index: int, scale: float, *, fill: bool) -> tuple[str, str]:
+def _paint(drawing: Drawing, group: list[int], scale: float, *, fill: bool) -> tuple[str, str]:
     """How a path is to be drawn: what is set before it, and the operator after it."""
+    index = group[0]
     color, width, stroke = drawing.colors[index], drawing.widths[index], drawing.strokes[index]
     filled = fill and drawing.is_filled(index)
     pen = [f"{_color(color)} rg"] if filled and color else []
@@ -101,7 +103,8 @@ def _paint(drawing: Drawing, index: int, scale: float, *, fill: bool) -> tuple[s
         pen.append(f"{_color(stroke.color)} RG {cap} J {join} j 4 M")
     if not filled:
         return "\n".join(pen), "S"
-    return "\n".join(pen), "f*" if width is None else "B*"
+    operator = "f" if width is None else "B"
+    return "\n".join(pen), operator if is_whole(drawing, group) else f"{operator}*"
 
 
 def _color(color: str) -> str:

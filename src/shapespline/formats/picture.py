@@ -1,4 +1,4 @@
-"""PNG: a picture of the curves, black on white."""
+"""PNG: a picture of the curves on white."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageChops, ImageDraw
 
 from shapespline.errors import InvalidInputError
-from shapespline.formats.cubics import broadest, painted
+from shapespline.formats.cubics import broadest, is_whole, painted
 from shapespline.geometry import sampled
 from shapespline.validation import whole_number
 from shapespline.values import BLACK, Stroke
@@ -36,7 +36,8 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
     drawing : Drawing
         With a frame the picture shows the frame, else the curves and a margin.
     fill : bool
-        Fill closed curves by the even-odd rule; otherwise they are stroked like open ones.
+        Fill closed curves, black ones by the even-odd rule; otherwise they are stroked like open
+        ones. Strokes of their own are drawn with them.
     pixels : int
         Pixels of the longer side, up to 16 384.
 
@@ -66,7 +67,10 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
             [(float(x), float(scale * (high[1] - low[1]) - y)) for x, y in points]
             for points in (scale * (lines[index] - low) for index in group)
         ]
-        if filled:
+        if filled and is_whole(drawing, group):
+            corner, shape = _whole(np.array(placed[0]), size)
+            ink.paste(drawing.colors[first] or BLACK, corner, shape)
+        elif filled:
             shape = Image.new("1", size)
             for at in placed:
                 part = Image.new("1", size)
@@ -90,6 +94,27 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
     out = io.BytesIO()
     picture.save(out, format="PNG", optimize=True)
     return out.getvalue()
+
+
+def _whole(at: FloatArray, size: tuple[int, int]) -> tuple[tuple[int, int], Image.Image]:
+    """What a closed polyline runs around, as a mask, and where its upper left corner lies.
+
+    Pixels are within where the sides to their left do not cancel out, up and down.
+    """
+    low = np.clip(np.floor(at.min(axis=0)), 0, size).astype(int)
+    width, height = np.clip(np.ceil(at.max(axis=0)), low, size).astype(int) - low + 1
+    begins, ends = (np.roll(at, shift, axis=0) - low - 0.5 for shift in (0, -1))
+    first = np.ceil(np.minimum(begins[:, 1], ends[:, 1])).astype(int)
+    counts = np.ceil(np.maximum(begins[:, 1], ends[:, 1])).astype(int) - first
+    side = np.repeat(np.arange(len(at)), counts)
+    row = first[side] + np.arange(len(side)) - np.repeat(np.cumsum(counts) - counts, counts)
+    (x, y), (dx, dy) = begins[side].T, (ends - begins)[side].T
+    column = np.ceil(x + (row - y) * dx / dy).clip(0, width).astype(int)
+    shown = (row >= 0) & (row < height)
+    turns = np.zeros((height, width + 1), dtype=np.int32)
+    np.add.at(turns, (row[shown], column[shown]), np.where(dy > 0, 1, -1)[shown])
+    within = np.cumsum(turns, axis=1)[:, :width] != 0
+    return (int(low[0]), int(low[1])), Image.fromarray(within)
 
 
 def _draw_stroke(

@@ -14,7 +14,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.formats.svg_paint import WHITE, blended
-from shapespline.formats.svg_polygons import is_closed, places_within, polygon_of, winds_twice
+from shapespline.formats.svg_polygons import (
+    BESIDE,
+    border_places,
+    is_closed,
+    places_within,
+    polygon_of,
+    winds_twice,
+)
 from shapespline.geometry import (
     all_containing,
     crossing_pairs,
@@ -28,13 +35,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from shapespline.formats.svg_paint import Paint
-    from shapespline.typing import FloatArray
+    from shapespline.typing import FloatArray, IntArray
     from shapespline.values import Piece
 
 # The grid of the ends of chords as a part of the drawing (FMT-15).
 GRID = 1e-7
 # Places within an outline near which is asked what is seen, of one and of all together (FMT-17).
 PLACES, ALL_PLACES = 32, 8192
+# The edges of a stroke are asked for at this part of its width to both sides; and so many places
+# along strokes tell whether they lie within an outline (FMT-17).
+STROKED, MOST_OF_STROKES = 0.49, 256
 
 
 class SubPath(NamedTuple):
@@ -56,6 +66,11 @@ class Top(NamedTuple):
     through: tuple[int, ...] = ()
 
 
+def part(count: int) -> int:
+    """Sides that are asked of each of so many outlines."""
+    return max(1, min(PLACES, ALL_PLACES // max(1, count)))
+
+
 @dataclass
 class Areas:
     """Closed sub-paths by their places, and what is painted within each."""
@@ -70,9 +85,16 @@ class Areas:
             for k, path in enumerate(self.paths)
             if is_closed(path.pieces)
         }
-        largest = max((float(np.abs(points).max()) for points in found.values()), default=1.0)
         # Without negative zeros: what coincides is told by its bytes.
-        return {k: np.round(points / largest / GRID) * GRID + 0.0 for k, points in found.items()}
+        return {
+            k: np.round(points / self.largest / GRID) * GRID + 0.0 for k, points in found.items()
+        }
+
+    @cached_property
+    def largest(self) -> float:
+        """The largest coordinate of control points, of which all others are parts."""
+        ends = (piece.control_points for path in self.paths for piece in path.pieces)
+        return max((float(np.abs(points).max()) for points in ends), default=0.0) or 1.0
 
     @cached_property
     def twins(self) -> dict[int, list[int]]:
@@ -205,36 +227,95 @@ class Areas:
 
     @cached_property
     def partly_seen(self) -> set[int]:
-        """Those of them that change what is seen somewhere within them or along their border."""
-        asked = [k for k in sorted(self._unseen) if self.paths[k].paint.fill]
-        count = max(1, min(PLACES, ALL_PLACES // max(1, len(asked))))
-        return {
+        """Those of them that show somewhere within, by their strokes, or by what they cover."""
+        filled = [k for k in sorted(self._unseen) if self.paths[k].paint.fill]
+        found = {
             k
-            for k, within in zip(asked, self.around_places(asked, count), strict=True)
-            if self._shows(k, within)
+            for k, within in zip(filled, self.around_places(self._within(filled)), strict=True)
+            if self._shows(k, within, self.twins[k])
         }
+        found |= {k for k in filled if self.is_white(k) and self._covers_strokes(k)}
+        stroked = [k for k in sorted(self._unseen - found) if self._widest(k)]
+        sides = [self._beside(k, self._widest(k), part(len(stroked))) for k in stroked]
+        for k, around in zip(stroked, self.around_places(sides), strict=True):
+            last = max(self.paths[j].element for j in self.twins[k] if self.paths[j].paint.stroke)
+            if any(self.top(ones).element < last for ones in around):
+                found.add(k)
+        return found
 
-    def _shows(self, k: int, within: list[list[int]]) -> bool:
-        """Whether an outline shows in one of some places, told by the outlines around each."""
+    @cached_property
+    def twins_seen(self) -> set[int]:
+        """Filled ones that show in another colour beneath or above the one they coincide with."""
+        asked = [
+            j
+            for k in self.outlines
+            for j in self.twins[k]
+            if j != k and self.paths[j].paint.fill not in (None, self.paths[k].paint.fill)
+        ]
+        places = self.around_places(self._within(asked))
+        return {j for j, within in zip(asked, places, strict=True) if self._shows(j, within, [j])}
+
+    def _shows(self, k: int, within: list[list[int]], leaving: Sequence[int]) -> bool:
+        """Whether an outline shows in one of some places, told by the outlines around each.
+
+        What is seen there is compared to what is without its element and without those to leave.
+        """
         element = self.paths[k].element
         if not self.is_filled([k, *self.own(k)]):  # a hole
             tops = [self.top(around) for around in within]
-            fill = self.paths[k].paint.fill
+            fill = None if self.is_white(k) else self.paths[k].paint.fill
             return any(top.element < element and self.color(top) != fill for top in tops)
         for around in within:
-            others = [j for j in around if j not in self.twins[k]]
+            others = [j for j in around if j not in leaving]
             without = self.top([j for j in others if self.paths[j].element != element])
             top = self.top(around)
             if top.element == element and top.color != self.color(without):
                 return True
         return False
 
-    def around_places(self, asked: Sequence[int], count: int) -> list[list[list[int]]]:
-        """The outlines around places within each of some outlines; see `places_within`."""
+    def _widest(self, k: int) -> float:
+        """Width of the widest stroke along an outline, 0 without one."""
+        paints = (self.paths[j].paint for j in self.twins[k])
+        return max((paint.width for paint in paints if paint.stroke), default=0.0)
+
+    def _within(self, asked: Sequence[int]) -> list[FloatArray]:
+        return [places_within(self.polygons[k], part(len(asked))) for k in asked]
+
+    def _beside(self, k: int, width: float, count: int) -> FloatArray:
+        """Places on both edges of a stroke."""
+        middle, inwards = border_places(self.polygons[k], count)
+        reach = STROKED * width / self.largest * inwards
+        return np.concatenate([middle + reach, middle - reach])
+
+    def near_places(self, asked: Sequence[int]) -> list[FloatArray]:
+        """Places just within the borders of some outlines."""
+        pairs = (border_places(self.polygons[k], part(len(asked))) for k in asked)
+        return [middle + BESIDE * inwards for middle, inwards in pairs]
+
+    def around_places(self, places: Sequence[FloatArray]) -> list[list[list[int]]]:
+        """The outlines around each of some places."""
         keys, polygons = [*self.polygons], [*self.polygons.values()]
-        places = [places_within(self.polygons[k], count) for k in asked]
         held = iter(holding(np.concatenate([np.empty((0, 2)), *places]), polygons))
         return [[[keys[j] for j in next(held)] for _ in points] for points in places]
+
+    def _covers_strokes(self, k: int) -> bool:
+        """Whether a line was stroked before within an outline."""
+        elements, points = self._strokes
+        low, high = self.polygons[k].min(axis=0), self.polygons[k].max(axis=0)
+        boxed = (points >= low).all(axis=1) & (points <= high).all(axis=1)
+        asked = boxed & (elements < self.paths[k].element)
+        chosen = points[asked][:: 1 + int(asked.sum()) // MOST_OF_STROKES]
+        return any(holding(chosen, [self.polygons[k]]))
+
+    @cached_property
+    def _strokes(self) -> tuple[IntArray, FloatArray]:
+        """Elements and places along all strokes, as parts of the largest coordinate."""
+        found = [(np.empty(0, dtype=np.int64), np.empty((0, 2)))]
+        for path in self.paths:
+            if path.paint.stroke:
+                points = polygon_of(path.pieces) / self.largest
+                found.append((np.full(len(points), path.element), points))
+        return np.concatenate([one for one, _ in found]), np.concatenate([at for _, at in found])
 
     def is_white(self, k: int) -> bool:
         """Whether an outline is that of a white area."""
@@ -253,11 +334,14 @@ class Areas:
         """The smallest outline around one that is seen, -1 for none."""
         return next((other for other in self.around[k] if other in self.seen), -1)
 
-    def cross(self, kept: Iterable[int]) -> bool:
-        """Whether areas that are kept lie partly over each other or run around something twice."""
+    def cross(self, kept: Iterable[int], *, even_odd: bool) -> bool:
+        """Whether areas that are kept lie partly over each other, or are filled by another rule.
+
+        The even-odd rule or the other one makes a difference where one runs around something twice.
+        """
         filled = [k for k in kept if self.paths[k].paint.fill]
         lines = [np.concatenate([self.polygons[k], self.polygons[k][:1]]) for k in filled]
         return bool(crossing_pairs(lines)) or any(
-            not self.paths[k].paint.even_odd and self_crossings(line) and winds_twice(line)
+            self.paths[k].paint.even_odd != even_odd and self_crossings(line) and winds_twice(line)
             for k, line in zip(filled, lines, strict=True)
         )

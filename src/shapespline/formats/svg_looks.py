@@ -8,14 +8,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from shapespline.formats.svg_areas import PLACES, Areas
+from shapespline.formats.svg_areas import Areas
 from shapespline.formats.svg_paint import WHITE, blended, stroke_of
-from shapespline.formats.svg_polygons import DEPTHS
 from shapespline.values import BLACK
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
-    from collections.abc import Set as AbstractSet
 
     from shapespline.formats.svg_areas import SubPath
     from shapespline.values import Stroke
@@ -80,22 +78,28 @@ def nested_as_painted(paths: Sequence[SubPath]) -> Nested:
         if parent in filling:
             parents[k] = areas.next_seen(k)
     lines = set(range(len(paths))) - set(areas.around)
-    apart = _strokes_above(areas, set(parents) - filling)
-    kept = sorted(lines | (set(parents) - filling) | apart, key=lambda k: _order(areas, k))
+    outlines = set(parents) - filling
+    along = _strokes_along(areas, outlines)
+    more = areas.twins_seen | {stroke for strokes in along.values() for stroke in strokes[1:]}
+    kept = sorted(lines | outlines | more, key=lambda k: _order(areas, k))
     place = {k: at for at, k in enumerate(kept)}
+    strokes = {k: strokes[0] for k, strokes in along.items()}
+    looks = [_look(areas, k, parents.get(k, -1), strokes.get(k, k)) for k in kept]
+    looks = _plain(looks, areas, kept)
     return Nested(
         kept,
         [place.get(parents.get(k, -1), -1) for k in kept],
-        _plain([_look(areas, k, parents.get(k, -1), apart) for k in kept], areas, kept),
+        looks,
         any(areas.is_white(k) for k in areas.outlines if areas.is_hidden(k)),
-        areas.cross([k for k in parents if k not in filling]),
+        # Areas in colours are filled whole, black ones by the even-odd rule.
+        areas.cross(sorted(outlines), even_odd=not any(look.color for look in looks)),
     )
 
 
 def side_by_side(paths: Sequence[SubPath]) -> Nested:
     """Sub-paths that our writer drew side by side: all of them are seen, and lie as they lie."""
     areas = Areas(paths)
-    return Nested([*range(len(paths))], None, [_look(areas, k) for k in range(len(paths))])
+    return Nested([*range(len(paths))], None, [_look(areas, k, -1, k) for k in range(len(paths))])
 
 
 def _plain(looks: list[Look], areas: Areas, kept: list[int]) -> list[Look]:
@@ -119,11 +123,10 @@ def _order(areas: Areas, k: int) -> tuple[int, int, int]:
     return path.element, 0, k
 
 
-def _look(areas: Areas, k: int, parent: int = -1, apart: AbstractSet[int] = frozenset()) -> Look:
-    """How a sub-path is painted that lies in another one.
+def _look(areas: Areas, k: int, parent: int, stroke: int) -> Look:
+    """How a sub-path is painted that lies in another one, with the stroke of one that coincides.
 
-    A hole of its own element is cut from it, whatever is seen through it. Of strokes of outlines
-    that coincide the last one counts, but for those that are kept apart.
+    A hole of its own element is cut from it, whatever is seen through it.
     """
     paint = areas.paths[k].paint
     fills = k in areas.twins and paint.fill
@@ -135,29 +138,40 @@ def _look(areas: Areas, k: int, parent: int = -1, apart: AbstractSet[int] = froz
             color = areas.color(seen) or WHITE
     elif fills and parent >= 0 and parent not in areas.own(k):
         color = areas.color(areas.tops[k][0]) or WHITE
-    twins = [k] if k in apart else [j for j in areas.twins.get(k, [k]) if j not in apart]
-    stroked = [j for j in twins if areas.paths[j].paint.stroke]
-    # Strokes run along the holes of an element as along its outline, which tells them.
-    if not stroked or (fills and color is None):
+    pen = areas.paths[stroke].paint
+    # A stroke runs along the holes of its element as along its outline, which tells it.
+    if not pen.stroke or (fills and color is None):
         return Look(color)
-    last = areas.paths[stroked[-1]].paint
-    return Look(color, last.width, stroke_of(last, areas.color(areas.beneath(k))))
+    return Look(color, pen.width, stroke_of(pen, areas.color(areas.beneath(k))))
 
 
-def _strokes_above(areas: Areas, kept: Iterable[int]) -> set[int]:
-    """Strokes along an outline that something is painted over between its fill and the stroke.
+def _strokes_along(areas: Areas, kept: Iterable[int]) -> dict[int, list[int]]:
+    """For each outline the sub-path whose stroke is painted with it, then those of other strokes.
 
-    Painted with the fill they would be covered on its inner side.
+    They are lines of their own: beneath a fill or a narrower stroke, or above what was painted over
+    the fill in between. What a wider one covers is left out.
     """
-    last = {}
-    for k in kept:
-        stroked = [j for j in areas.twins[k] if areas.paths[j].paint.stroke]
-        if stroked and stroked[-1] > k and areas.paths[k].paint.fill:
-            last[k] = stroked[-1]
-    found = set()
-    for k, within in zip(last, areas.around_places([*last], PLACES), strict=True):
-        near = within[: len(within) // (1 + len(DEPTHS))]
-        tops = (areas.top(areas.under(last[k], around)) for around in near)
-        if any(top.element > areas.paths[k].element for top in tops):
-            found.add(last[k])
+    found, above = {}, {}
+    for k in sorted(kept):
+        strokes = [j for j in areas.twins[k] if areas.paths[j].paint.stroke]
+        found[k] = strokes
+        if strokes and strokes[-1] > k and not areas.paths[k].paint.stroke:
+            above[k] = strokes[-1]
+    places = areas.around_places(areas.near_places([*above]))
+    covered = {
+        k
+        for (k, stroke), near in zip(above.items(), places, strict=True)
+        if any(
+            areas.top(areas.under(stroke, around)).element > areas.paths[k].element
+            for around in near
+        )
+    }
+    for k, strokes in found.items():
+        own = above[k] if k in above and k not in covered else k
+        shown, width = [own], 0.0
+        for j in reversed(strokes):
+            if j != own and areas.paths[j].paint.width > width:
+                shown.append(j)
+            width = max(width, areas.paths[j].paint.width)
+        found[k] = shown
     return found

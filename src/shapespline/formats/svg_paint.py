@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 import zlib
 from typing import TYPE_CHECKING, NamedTuple
 
+from shapespline.errors import FormatError
 from shapespline.formats.svg_viewports import LENGTH
 from shapespline.values import BLACK, CAPS, JOINS, Stroke
 
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
 WHITE = "#ffffff"
 # Of patterns and the like: greys from this one on, so many of them.
 GREY, GREYS = 0x60, 0x40
+REBECCA, FUNCTION = "rgb(102 51 153)", re.compile(r"(rgb|hsl)a?\(([^,]*)\)")
 
 
 class Paint(NamedTuple):
@@ -53,6 +56,8 @@ def paint_of(shape: Shape) -> Paint:
         return Paint(None, None, False)
     m = shape.transform
     width = _number(values, "stroke-width", 1.0) * math.sqrt(abs(m.a * m.d - m.b * m.c))
+    if not math.isfinite(width):
+        raise FormatError("the width of a stroke is no finite number")
     fill, fill_opacity = _color(values, "fill", "black")
     stroke, stroke_opacity = _color(values, "stroke", "none")
     return Paint(
@@ -106,9 +111,16 @@ def color_and_opacity(
     from svgelements import Color
 
     text = str(values.get(name, default)).strip()
+    if text.startswith("url(") and text.partition(")")[2].strip():  # where there is no such paint
+        text = text.partition(")")[2].strip()
     if text.startswith("url("):
         level = GREY + zlib.crc32(text.encode()) % GREYS
         return f"#{3 * f'{level:02x}'}", 1.0
+    # The library knows neither this name nor CSS Color 4, which writes blanks and a slash.
+    match = FUNCTION.fullmatch(REBECCA if text == "rebeccapurple" else text)
+    if match is not None and len(words := match[2].replace("/", " ").split()) in (3, 4):
+        alpha = share({"": words[3]}, "", 1.0) if len(words) == 4 else 1.0
+        text = f"{match[1]}a({','.join([*words[:3], repr(alpha)])})"
     color = Color(text)
     if color.value is None:
         return None, 0.0

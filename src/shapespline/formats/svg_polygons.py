@@ -68,19 +68,22 @@ def _chords(piece: Piece) -> FloatArray:
     return layers[0]
 
 
-def places_within(begins: FloatArray, count: int) -> FloatArray:
-    """Places within a polygon: near the middles of ``count`` sides at most, and farther from them.
-
-    Those near come first, then for each of `DEPTHS` as many that lie so far across.
-    """
+def border_places(begins: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
+    """Middles of ``count`` sides of a polygon at most, and unit vectors from there inwards."""
     along = np.roll(begins, -1, axis=0) - begins
     length = np.hypot(*along.T)
     chosen = np.flatnonzero(length > 2 * BESIDE)
     count = min(count, len(chosen))
     chosen = chosen[np.unique(np.linspace(0, len(chosen) - 1, count).astype(int))]
-    middle = begins[chosen] + 0.5 * along[chosen]
     left = np.stack([-along[chosen, 1], along[chosen, 0]], axis=-1) / length[chosen, None]
     inwards = math.copysign(1.0, signed_area(begins)) * left
+    return begins[chosen] + 0.5 * along[chosen], inwards
+
+
+def places_within(begins: FloatArray, count: int) -> FloatArray:
+    """Places within a polygon: near the middles of ``count`` sides at most, and farther away."""
+    middle, inwards = border_places(begins, count)
+    along = np.roll(begins, -1, axis=0) - begins
     across = np.array([_across(begins, along, *ray) for ray in zip(middle, inwards, strict=True)])
     far = [middle + part * across.reshape(-1, 1) * inwards for part in DEPTHS]
     return np.concatenate([middle + BESIDE * inwards, *far])

@@ -1,6 +1,6 @@
 """SVG drawings as exact curves: every path and shape, transforms and units, by svgelements.
 
-What is drawn is read: the borders of fills, and the centre lines of strokes without one. Hidden
+What is drawn is read: the borders of fills, the centre lines of strokes, and their colours. Hidden
 elements, elements painted with nothing, definitions that nobody uses and text, pictures and effects
 are not.
 :mod:`shapespline.formats.svg_tree` prepares the document.

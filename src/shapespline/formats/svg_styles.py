@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 # The properties that tell what is drawn, and where.
 PAINTING = ("fill", "fill-opacity", "fill-rule", "stroke", "stroke-opacity", "stroke-width",
             "stroke-linecap", "stroke-linejoin", "stroke-dasharray", "stop-color", "stop-opacity",
+            "marker", "marker-start", "marker-mid", "marker-end",
             "color", "opacity", "display", "visibility", "clip-path", "mask",
             "transform")  # fmt: skip
 PLACES = ("x", "y", "width", "height", "r", "rx", "ry", "cx", "cy")

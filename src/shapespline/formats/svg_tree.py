@@ -49,7 +49,7 @@ NAMED = {"text": "text", "image": "pictures", "foreignObject": "foreign content"
 NOT_DRAWN = ("clipPath", "mask", "pattern", "marker", "linearGradient", "radialGradient", "filter",
              "metadata", "script", "style", "title", "desc", "symbol", "defs")  # fmt: skip
 CUTTING = {"clip-path": "clip paths", "mask": "masks", "stroke-dasharray": "dashes of strokes",
-           "marker-start": "markers", "marker-mid": "markers",
+           "marker": "markers", "marker-start": "markers", "marker-mid": "markers",
            "marker-end": "markers"}  # fmt: skip
 
 
@@ -159,15 +159,27 @@ class _Copier:
     numbers_left: int = MOST_NUMBERS
     skipped: dict[str, None] = field(default_factory=dict)
     tiled: bool = False
+    means: dict[str, tuple[str, float] | None] = field(default_factory=dict)
 
-    def plain(self, element: Element, inside: tuple[str, ...], size: Size | None) -> Element:
-        """A copy of what an element draws in a viewport of a size, lengths as numbers of pixels."""
+    def plain(
+        self,
+        element: Element,
+        inside: tuple[str, ...],
+        size: Size | None,
+        opacity: float = 1.0,
+    ) -> Element:
+        """A copy of what an element draws in a viewport of a size, lengths as numbers of pixels.
+
+        What lies in a group lets as much through as both do.
+        """
         self._count(element)
         attributes = {
             name: resolved(name, value, size) if name in LENGTHS else value
             for name, value in element.attrib.items()
         }
         self._color(attributes)
+        opacity *= share(attributes, "opacity", 1.0)
+        attributes["opacity"] = repr(opacity)
         for name, words in CUTTING.items():
             if attributes.get(name, "none") != "none":
                 self.skipped[words] = None
@@ -179,20 +191,25 @@ class _Copier:
             if tag in NAMED:
                 self.skipped[NAMED[tag]] = None
             elif tag == "use":
-                result.extend(self._used(child, inside, size))
+                result.extend(self._used(child, inside, size, opacity))
             elif tag == "svg":
                 transform, inner = inner_viewport(child, size)
                 group = _group(child, transform)
                 group.extend(child)
-                result.append(self.plain(group, inside, inner))
+                result.append(self.plain(group, inside, inner, opacity))
             elif isinstance(child.tag, str) and tag not in NOT_DRAWN:
-                result.append(self.plain(child, inside, size))
+                result.append(self.plain(child, inside, size, opacity))
         return result
 
     def _color(self, attributes: dict[str, str]) -> None:
         """Put their mean colour in the place of gradients."""
         for name in ("fill", "stroke"):
-            found = mean_color(attributes.get(name, ""), self.ids)
+            paint = attributes.get(name, "")
+            if not paint.startswith("url("):
+                continue
+            if paint not in self.means:
+                self.means[paint] = mean_color(paint, self.ids)
+            found = self.means[paint]
             if found is not None:
                 self.skipped["shades of gradients"] = None
                 attributes[name], opacity = found
@@ -210,7 +227,9 @@ class _Copier:
                 " it"
             )
 
-    def _used(self, use: Element, inside: tuple[str, ...], size: Size | None) -> list[Element]:
+    def _used(
+        self, use: Element, inside: tuple[str, ...], size: Size | None, opacity: float
+    ) -> list[Element]:
         """What a use draws: a group, or nothing."""
         if use.get("class") == UNDERLAY:  # of the areas that are drawn above it
             self.tiled = True
@@ -222,7 +241,7 @@ class _Copier:
             return []
         if target in inside:
             raise FormatError(f"the element {target} uses itself")
-        return [self.plain(_placed(use, found, size), (*inside, target), size)]
+        return [self.plain(_placed(use, found, size), (*inside, target), size, opacity)]
 
 
 def _placed(use: Element, found: Element, size: Size | None) -> Element:

@@ -1,4 +1,4 @@
-"""SVG: arcs and cubic Beziers, exact up to degree 3, filled as a silhouette."""
+"""SVG: arcs and cubic Beziers, exact up to degree 3, filled and stroked in their colours."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from shapespline.formats.cubics import (
     cubics_and_arcs,
     is_straight,
     is_tiled,
+    is_whole,
     painted,
     turning_points,
 )
@@ -70,8 +71,8 @@ def encode(
 ) -> bytes:
     """Text of an SVG file with one path for each outline and its holes.
 
-    Closed curves are filled by the even-odd rule, black if they have no colour of their own; open
-    ones are stroked and unfilled, strokes of known width by a pen of this width. y is
+    Closed curves are filled, black and by the even-odd rule if they have no colour of their own;
+    open ones are stroked and unfilled, strokes of known width by a pen of this width. y is
     turned over once, within the view box: the frame, or without one the bounding box of the curves
     with a small margin. Coordinates are those of the data, so that they read back the same; of a
     view box far from the origin (maps) they count from its corner, in a group that is moved there,
@@ -150,9 +151,8 @@ def encode(
         own = None if stroke_width else drawing.widths[first]
         color = drawing.colors[first] or INK
         if fill and drawing.is_filled(first):
-            # What crosses itself is filled as a whole, as it was painted, unless it has holes.
-            alone = drawing.colors[first] and len(group) == 1
-            style = f'fill="{color}"' + ("" if alone else ' fill-rule="evenodd"')
+            rule = "" if is_whole(drawing, group) else ' fill-rule="evenodd"'
+            style = f'fill="{color}"{rule}'
             if drawing.widths[first] is not None:
                 style += f" {_stroked(width, own, drawing.strokes[first])}"
             elif tiled:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from typing import TYPE_CHECKING, NamedTuple
 
 from shapespline.errors import InvalidInputError
@@ -54,8 +55,8 @@ def checked_widths(widths: Sequence[float | None] | None, count: int) -> tuple[f
             f"widths must name one width for each: expected {count}, got {len(widths)}"
         )
     for width in widths:
-        if width is not None and not (is_number(width) and 0 < width < float("inf")):
-            raise InvalidInputError(f"widths must be None or positive numbers, got {width!r}")
+        if width is not None and not (is_number(width) and 0 < width <= sys.float_info.max):
+            raise InvalidInputError(f"widths must be None or positive numbers, got {width!r:.40}")
     return tuple(None if width is None else float(width) for width in widths)
 
 

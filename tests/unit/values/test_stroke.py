@@ -37,3 +37,8 @@ def test_strokes_belong_to_widths():
 def test_bad_strokes(strokes, message):
     with pytest.raises(ss.InvalidInputError, match=f"strokes must .*{message}"):
         ss.Drawing([fit_of(wave()), fit_of(wave())], widths=[2.0, None], strokes=strokes)
+
+
+def test_a_width_beyond_all_numbers_is_refused():
+    with pytest.raises(ss.InvalidInputError, match="widths must be None or positive numbers"):
+        ss.Shape([LINE], widths=[10**400])

@@ -30,6 +30,10 @@ APART = 4.0
 ONE_BIT = 0.15
 # Points of a table are not known better than this part of the extent (DRA-02).
 LAST_DIGIT = 1e-5
+# Where all of them have so many decimals, rounding to steps of the last one deviates by a step over
+# this, if steps are no more than this part of the extent and as much of it shows between neighbours
+# (DRA-46). How near to whole numbers of steps they lie; and how many differences tell the step.
+ROUNDED, COARSEST, VISIBLE, ON_GRID, MOST_DIFFERENCES = 12.0**0.5, 1e-3, 0.2, 1e-3, 256
 # Of more points than these every so many-th is looked at: of clean ones, of noisy ones, which are
 # averaged first (DRA-03), and those of a picture, which all count (DRA-09).
 MOST_POINTS, MOST_NOISY = 1000, 6000
@@ -86,7 +90,11 @@ class Observed:
         # What they are said to be accurate to does not make lines of smooth points, unless they
         # are exact.
         exact = 0.0 if contour.accuracy == 0 else None
-        deviation = max(noise_level(Contour.trusted(points, closed, exact)), LAST_DIGIT * extent)
+        deviation = noise_level(Contour.trusted(points, closed, exact))
+        rounding = _rounding(points, extent)
+        if deviation > VISIBLE * rounding:
+            deviation = max(deviation, rounding)
+        deviation = max(deviation, LAST_DIGIT * extent)
         k = neighbours_to_average(points, closed, deviation)
         every = len(points) // (max(k, 1) * MOST_POINTS)
         whole = None
@@ -160,3 +168,22 @@ def _thinned(points: FloatArray, closed: bool, every: int) -> FloatArray:
     """Every so many-th point, and both ends of an open row."""
     rest = points[-1:] if not closed and (len(points) - 1) % every else points[:0]
     return np.concatenate([points[::every], rest])
+
+
+def _rounding(points: FloatArray, extent: float) -> float:
+    """Standard deviation of coordinates that are all whole numbers of one step; else 0.
+
+    The step is what coordinates that are next to each other differ by, by Euclid's algorithm.
+    Coarse ones are no rounding, and what fine ones do is less than `LAST_DIGIT`.
+    """
+    offsets, finest = points - points[0], LAST_DIGIT * extent
+    between = np.diff(np.sort(offsets, axis=None))
+    between = between[between > finest]
+    step = np.inf
+    for rest in between[:: ceil(len(between) / MOST_DIFFERENCES) or 1].tolist():
+        while rest > finest:
+            step, rest = rest, abs(step - rest * round(step / rest)) if step < np.inf else 0.0
+    if step > COARSEST * extent:
+        return 0.0
+    counts = offsets / step
+    return step / ROUNDED if (np.abs(counts - np.round(counts)) <= ON_GRID).all() else 0.0
