@@ -6,6 +6,7 @@ import io
 import re
 import shutil
 import subprocess
+import warnings
 import zlib
 
 import numpy as np
@@ -229,6 +230,22 @@ def test_what_is_written_reads_back_as_it_was(name, tmp_path):
 def test_what_lets_others_show_through_counts_within_what_does():
     drawing = read(f'<g opacity="0.5"><g opacity="0.5">{rect(9, 9, 9, 9, fill="red")}</g></g>')
     assert drawing.colors == ("#ffbfbf",)
+
+
+@pytest.mark.parametrize(
+    ("style", "said"),
+    [
+        ("fill='#cc2222'", False),
+        ("fill='#cc2222' fill-rule='evenodd'", True),
+        ("fill='black'", True),
+        ("fill='black' fill-rule='evenodd'", False),
+    ],
+)
+def test_another_fill_rule_is_said_where_it_matters(style, said):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        read(f'<path {style} d="M50 5L76 86L7 36H93L24 86z"/>')
+    assert [one.category for one in caught] == said * [SkippedContentWarning]
 
 
 def test_a_frame_of_white_on_paper_is_left_out():
