@@ -147,6 +147,18 @@ PICTURES = {
         + rect(20, 20, 60, 60, fill=BLUE),
         {(17, 50): RED, (22, 50): BLUE, (50, 50): BLUE},
     ),
+    "dots": (
+        '<g stroke="black" stroke-width="20">'
+        '<path stroke-linecap="round" d="M30 30h0"/><path stroke-linecap="square" d="M70 30z"/>'
+        '<line stroke-linecap="butt" x1="30" y1="70" x2="30" y2="70"/></g>',
+        {
+            (30, 30): "#000000",
+            (38, 30): "#000000",
+            (37.5, 37.5): "#ffffff",
+            (62, 22): "#000000",
+            (30, 70): "#ffffff",
+        },
+    ),
     "what lets others show through": (
         rect(10, 10, 80, 80, fill="#ffff00") + rect(30, 30, 40, 40, fill="black", opacity=0.5),
         {(20, 50): "#ffff00", (50, 50): "#808000"},

@@ -21,7 +21,7 @@ from shapespline.formats.elliptic import elliptical_arc
 from shapespline.formats.pieces import SAME_END, bezier, closed_up
 from shapespline.formats.svg_areas import SubPath
 from shapespline.formats.svg_looks import nested_as_painted, side_by_side
-from shapespline.formats.svg_paint import paint_of
+from shapespline.formats.svg_paint import Paint, paint_of
 from shapespline.formats.svg_tree import prepared
 from shapespline.geometry import Outlines
 
@@ -33,6 +33,11 @@ if TYPE_CHECKING:
 
     from shapespline.typing import FloatArray
     from shapespline.values import Piece
+
+
+# A path of no length is a dot where the stroke's end is round or square, and a line so long, in
+# widths of the stroke (FMT-17).
+DOT = 0.01
 
 
 def read(path: Path) -> Outlines:
@@ -120,7 +125,7 @@ def _sub_paths(root: ElementTree.Element) -> Iterator[SubPath]:
                 continue
             paint = paint_of(element)
             if paint.fill or paint.stroke:
-                for pieces in _pieces_of(element, paint.fill is not None):
+                for pieces in _pieces_of(element, paint):
                     if pieces:
                         yield SubPath(pieces, number, paint)
     except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError) as error:
@@ -130,11 +135,17 @@ def _sub_paths(root: ElementTree.Element) -> Iterator[SubPath]:
         raise FormatError("the drawing is nested too deeply") from None
 
 
-def _pieces_of(shape: Shape, filled: bool) -> Iterator[list[Piece]]:
+def _pieces_of(shape: Shape, paint: Paint) -> Iterator[list[Piece]]:
     """Pieces of each sub-path of an element."""
     from svgelements import Close, Move
 
-    close = _filled_up if filled else closed_up
+    def close(pieces: list[Piece]) -> list[Piece]:
+        found = _filled_up(pieces) if paint.fill else closed_up(pieces)
+        if not found and pieces and paint.stroke and paint.cap != "butt":
+            place = pieces[0].control_points[0]
+            found = [bezier([place, place + np.array([DOT * paint.width, 0.0])])]
+        return found
+
     m = shape.transform
     axes, origin = np.array([[m.a, m.c], [m.b, m.d]]), np.array([m.e, m.f])
     pieces: list[Piece] = []

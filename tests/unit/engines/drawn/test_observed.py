@@ -23,7 +23,7 @@ def ring(count, phase, decimals):
 def test_a_circle_of_so_many_decimals_is_one(count, phase, decimals):
     fit = ss.fit_curve(ring(count, phase, decimals), closed=True, tolerance=0.3)
     assert [piece.kind for piece in fit.pieces] == ["arc"]
-    # Half a step of each coordinate moves a radius by (|cos| + |sin|) / 2, in the mean 2 / pi of it.
+    # Half a step of both moves a radius by (|cos| + |sin|) / 2 of it, 2 / pi in the mean.
     assert fit.pieces[0].arc.radius == pytest.approx(88, abs=10.0**-decimals * 2 / np.pi)
 
 
