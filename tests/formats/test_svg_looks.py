@@ -122,6 +122,16 @@ PICTURES = {
         rect(30, 30, 40, 40, fill=BLUE) + ring(10, 10, 80, 80, 20, fill=RED),
         {(15, 50): RED, (50, 50): BLUE},
     ),
+    "two frames with one hole": (
+        ring(10, 10, 80, 80, 30, fill=RED) + ring(20, 20, 60, 60, 20, fill=GREEN),
+        {(15, 50): RED, (25, 50): GREEN, (50, 50): "#ffffff"},
+    ),
+    "two frames of one colour with one hole": (
+        ring(10, 10, 80, 80, 30, fill=RED)
+        + ring(20, 20, 60, 60, 20, fill=RED)
+        + rect(0, 90, 9, 9, fill=BLUE),
+        {(15, 50): RED, (30, 50): RED, (50, 50): "#ffffff"},
+    ),
     "a stroke beneath the area within it": (
         rect(20, 20, 60, 60, fill="none", stroke="black", stroke_width=20)
         + rect(20, 20, 60, 60, fill="#ffff00"),

@@ -66,8 +66,8 @@ class Top(NamedTuple):
     through: tuple[int, ...] = ()
 
 
-def part(count: int) -> int:
-    """Sides that are asked of each of so many outlines."""
+def sides_asked(count: int) -> int:
+    """How many sides of each of so many outlines are asked."""
     return max(1, min(PLACES, ALL_PLACES // max(1, count)))
 
 
@@ -236,7 +236,7 @@ class Areas:
         }
         found |= {k for k in filled if self.is_white(k) and self._covers_strokes(k)}
         stroked = [k for k in sorted(self._unseen - found) if self._widest(k)]
-        sides = [self._beside(k, self._widest(k), part(len(stroked))) for k in stroked]
+        sides = [self._beside(k, self._widest(k), sides_asked(len(stroked))) for k in stroked]
         for k, around in zip(stroked, self.around_places(sides), strict=True):
             last = max(self.paths[j].element for j in self.twins[k] if self.paths[j].paint.stroke)
             if any(self.top(ones).element < last for ones in around):
@@ -245,12 +245,13 @@ class Areas:
 
     @cached_property
     def twins_seen(self) -> set[int]:
-        """Filled ones that show in another colour beneath or above the one they coincide with."""
+        """Areas that show in another colour than the one they coincide with, and holes that do."""
         asked = [
             j
             for k in self.outlines
             for j in self.twins[k]
-            if j != k and self.paths[j].paint.fill not in (None, self.paths[k].paint.fill)
+            if j != k and self.paths[j].paint.fill
+            if self.paths[j].paint.fill != self.paths[k].paint.fill or self._is_hole(j)
         ]
         places = self.around_places(self._within(asked))
         return {j for j, within in zip(asked, places, strict=True) if self._shows(j, within, [j])}
@@ -261,7 +262,7 @@ class Areas:
         What is seen there is compared to what is without its element and without those to leave.
         """
         element = self.paths[k].element
-        if not self.is_filled([k, *self.own(k)]):  # a hole
+        if self._is_hole(k):
             tops = [self.top(around) for around in within]
             fill = None if self.is_white(k) else self.paths[k].paint.fill
             return any(top.element < element and self.color(top) != fill for top in tops)
@@ -273,13 +274,17 @@ class Areas:
                 return True
         return False
 
+    def _is_hole(self, k: int) -> bool:
+        """Whether its element does not fill what lies within an outline."""
+        return not self.is_filled([k, *self.own(k)])
+
     def _widest(self, k: int) -> float:
         """Width of the widest stroke along an outline, 0 without one."""
         paints = (self.paths[j].paint for j in self.twins[k])
         return max((paint.width for paint in paints if paint.stroke), default=0.0)
 
     def _within(self, asked: Sequence[int]) -> list[FloatArray]:
-        return [places_within(self.polygons[k], part(len(asked))) for k in asked]
+        return [places_within(self.polygons[k], sides_asked(len(asked))) for k in asked]
 
     def _beside(self, k: int, width: float, count: int) -> FloatArray:
         """Places on both edges of a stroke."""
@@ -289,7 +294,7 @@ class Areas:
 
     def near_places(self, asked: Sequence[int]) -> list[FloatArray]:
         """Places just within the borders of some outlines."""
-        pairs = (border_places(self.polygons[k], part(len(asked))) for k in asked)
+        pairs = (border_places(self.polygons[k], sides_asked(len(asked))) for k in asked)
         return [middle + BESIDE * inwards for middle, inwards in pairs]
 
     def around_places(self, places: Sequence[FloatArray]) -> list[list[list[int]]]:

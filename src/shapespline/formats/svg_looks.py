@@ -61,7 +61,7 @@ def nested_as_painted(paths: Sequence[SubPath]) -> Nested:
 
     Outlines that bound no change of colour are no holes: those of an area on one of its own colour
     stand for themselves, what is white on white or painted over is left out, and of those that
-    coincide one is kept.
+    coincide one is kept, and others that show beside it.
     """
     areas = Areas(paths)
     parents = {k: areas.parent(k) for k in areas.outlines if not areas.is_hidden(k)}
@@ -80,8 +80,9 @@ def nested_as_painted(paths: Sequence[SubPath]) -> Nested:
     lines = set(range(len(paths))) - set(areas.around)
     outlines = set(parents) - filling
     along = _strokes_along(areas, outlines)
-    more = areas.twins_seen | {stroke for strokes in along.values() for stroke in strokes[1:]}
-    kept = sorted(lines | outlines | more, key=lambda k: _order(areas, k))
+    more = {stroke for strokes in along.values() for stroke in strokes[1:]}
+    parents |= {k: areas.parent(k) for k in areas.twins_seen}
+    kept = sorted(lines | outlines | areas.twins_seen | more, key=lambda k: _order(areas, k))
     place = {k: at for at, k in enumerate(kept)}
     strokes = {k: strokes[0] for k, strokes in along.items()}
     looks = [_look(areas, k, parents.get(k, -1), strokes.get(k, k)) for k in kept]
