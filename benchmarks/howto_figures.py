@@ -179,14 +179,15 @@ def boat() -> str:
     """A boat as programs export it that know polygons alone: a node each pixel or two."""
     t = np.linspace(0, 1, 120)
     disc = 100 + 88 * np.column_stack([np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)])[:-1]
-    low = disc[disc[:, 1] > 148]
+    within = 100 + 86.5 / 88 * (disc - 100)  # its stroke is 3 wide
+    low = within[within[:, 1] > 152]
     ends = low[:, 0].max(), low[:, 0].min()
-    swell = np.column_stack([ends[1] + (ends[0] - ends[1]) * t, 148 + 3 * np.sin(5 * np.pi * t)])
+    swell = np.column_stack([ends[1] + (ends[0] - ends[1]) * t, 152 + 3 * np.sin(5 * np.pi * t)])
     sea = np.vstack([swell, low[np.argsort(-low[:, 0])]])
-    hull = np.column_stack([60 + 84 * t, 128 + 26 * np.sin(np.pi * t) ** 0.6])
-    sail = np.vstack([np.column_stack([102 + 44 * t - 26 * t * (1 - t), 38 + 80 * t]), [102, 118]])
-    jib = np.vstack([np.column_stack([96 - 40 * t + 14 * t * (1 - t), 48 + 70 * t]), [96, 118]])
-    wave = np.column_stack([50 + 100 * t, 164 + 3 * np.sin(8 * np.pi * t)])
+    hull = np.column_stack([60 + 84 * t, 120 + 24 * np.sin(np.pi * t) ** 0.6])
+    sail = np.vstack([np.column_stack([102 + 44 * t - 26 * t * (1 - t), 30 + 80 * t]), [102, 110]])
+    jib = np.vstack([np.column_stack([96 - 40 * t + 14 * t * (1 - t), 40 + 70 * t]), [96, 110]])
+    wave = np.column_stack([50 + 100 * t, 167 + 3 * np.sin(8 * np.pi * t)])
 
     def path(points: FloatArray, end: str, **style: str) -> str:
         told = " ".join(f'{name.replace("_", "-")}="{value}"' for name, value in style.items())

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PIL import Image, ImageChops, ImageDraw
+from PIL import Image, ImageDraw
 
 from shapespline.errors import InvalidInputError
 from shapespline.formats.cubics import broadest, is_whole, painted
@@ -63,31 +63,21 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
     for group in painted(drawing):
         first = group[0]
         filled = fill and drawing.is_filled(first)
+        # y down
         placed = [
-            [(float(x), float(scale * (high[1] - low[1]) - y)) for x, y in points]
-            for points in (scale * (lines[index] - low) for index in group)
+            scale * (lines[index] - low) * (1, -1) + (0, scale * (high[1] - low[1]))
+            for index in group
         ]
-        if filled and is_whole(drawing, group):
-            corner, shape = _whole(np.array(placed[0]), size)
+        if filled:
+            corner, shape = _filled(placed, size, whole=is_whole(drawing, group))
             ink.paste(drawing.colors[first] or BLACK, corner, shape)
-        elif filled:
-            shape = Image.new("1", size)
-            for at in placed:
-                part = Image.new("1", size)
-                ImageDraw.Draw(part).polygon(at, fill=1)
-                shape = ImageChops.logical_xor(shape, part)
-            ink.paste(drawing.colors[first] or BLACK, mask=shape)
         own, look = drawing.widths[first], drawing.strokes[first] or Stroke()
         if own is None and filled:
             continue
-        shape = Image.new("1", size)
-        for at in placed:
-            if own is None:
-                wide = max(1, round(scale * STROKE * longer))
-                ImageDraw.Draw(shape).line(at, fill=1, width=wide, joint="curve")
-            else:
-                _draw_stroke(shape, at, scale * own, look)
-        ink.paste(look.color, mask=shape)
+        wide = max(1, round(scale * (own or STROKE * longer)))
+        for points in placed:
+            corner, shape = _stroked(points, size, wide, None if own is None else look)
+            ink.paste(look.color, corner, shape)
     picture = ink.reduce(OVERSAMPLING)
     if not any(drawing.colors) and not any(drawing.strokes):
         picture = picture.convert("L")
@@ -96,34 +86,53 @@ def encode(drawing: Drawing, *, fill: bool = True, pixels: int = LONGER_SIDE) ->
     return out.getvalue()
 
 
-def _whole(at: FloatArray, size: tuple[int, int]) -> tuple[tuple[int, int], Image.Image]:
-    """What a closed polyline runs around, as a mask, and where its upper left corner lies.
+def _part(
+    rings: list[FloatArray], size: tuple[int, int], reach: float
+) -> tuple[tuple[int, int], tuple[int, int]]:
+    """Upper left corner and size of the part of a picture that some polylines reach into."""
+    points = np.concatenate(rings)
+    low = np.clip(np.floor(points.min(axis=0) - reach), 0, np.subtract(size, 1)).astype(int)
+    high = np.clip(np.ceil(points.max(axis=0) + reach), low + 1, size).astype(int)
+    return (int(low[0]), int(low[1])), (int(high[0] - low[0]), int(high[1] - low[1]))
 
-    Pixels are within where the sides to their left do not cancel out, up and down.
+
+def _filled(
+    rings: list[FloatArray], size: tuple[int, int], *, whole: bool
+) -> tuple[tuple[int, int], Image.Image]:
+    """What closed polylines run around, as a mask of a part of the picture, and its corner.
+
+    Pixels are within where the sides to their left do not cancel out, up and down; or, by the
+    even-odd rule, where there is an odd number of them.
     """
-    low = np.clip(np.floor(at.min(axis=0)), 0, size).astype(int)
-    width, height = np.clip(np.ceil(at.max(axis=0)), low, size).astype(int) - low + 1
-    begins, ends = (np.roll(at, shift, axis=0) - low - 0.5 for shift in (0, -1))
+    corner, (width, height) = _part(rings, size, 1.0)
+    begins = np.concatenate(rings) - corner - 0.5
+    ends = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings]) - corner - 0.5
     first = np.ceil(np.minimum(begins[:, 1], ends[:, 1])).astype(int)
     counts = np.ceil(np.maximum(begins[:, 1], ends[:, 1])).astype(int) - first
-    side = np.repeat(np.arange(len(at)), counts)
+    side = np.repeat(np.arange(len(begins)), counts)
     row = first[side] + np.arange(len(side)) - np.repeat(np.cumsum(counts) - counts, counts)
     (x, y), (dx, dy) = begins[side].T, (ends - begins)[side].T
     column = np.ceil(x + (row - y) * dx / dy).clip(0, width).astype(int)
     shown = (row >= 0) & (row < height)
     turns = np.zeros((height, width + 1), dtype=np.int32)
     np.add.at(turns, (row[shown], column[shown]), np.where(dy > 0, 1, -1)[shown])
-    within = np.cumsum(turns, axis=1)[:, :width] != 0
-    return (int(low[0]), int(low[1])), Image.fromarray(within)
+    within = np.cumsum(turns, axis=1)[:, :width]
+    return corner, Image.fromarray((within if whole else within % 2) != 0)
 
 
-def _draw_stroke(
-    part: Image.Image, at: list[tuple[float, float]], width: float, look: Stroke
-) -> None:
-    """A polyline with a pen: where it bends round, at its corners and ends as the stroke says."""
-    pen, wide = ImageDraw.Draw(part), max(1, round(width))
-    half = 0.5 * (wide - 1)
-    points = np.array(at)
+def _stroked(
+    points: FloatArray, size: tuple[int, int], wide: int, look: Stroke | None
+) -> tuple[tuple[int, int], Image.Image]:
+    """A polyline with a pen, as a mask of a part of the picture, and its corner.
+
+    Where it bends it is round, at its corners and ends as the stroke says.
+    """
+    corner, part = _part([points], size, (MITER_LIMIT + 1) * 0.5 * wide + 1)
+    shape, points = Image.new("1", part), points - corner
+    pen, half = ImageDraw.Draw(shape), 0.5 * (wide - 1)
+    if look is None:
+        pen.line([(x, y) for x, y in points.tolist()], fill=1, width=wide, joint="curve")
+        return corner, shape
     points = points[np.concatenate([[True], (points[1:] != points[:-1]).any(axis=1)])]
     closed = len(points) > 2 and bool((points[0] == points[-1]).all())
     steps = np.diff(points, axis=0)
@@ -148,6 +157,7 @@ def _draw_stroke(
         pen.polygon([(x, y) for x, y in np.array(outer).tolist()], fill=1)
     for x, y in np.array(rounded).reshape(-1, 2).tolist():
         pen.ellipse([x - half, y - half, x + half, y + half], fill=1)
+    return corner, shape
 
 
 def _window(drawing: Drawing, lines: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
