@@ -162,7 +162,8 @@ def test_no_ground_shows_between_areas_in_viewers_that_smooth_each_by_itself(sha
     assert text.count("<use ") == 1
     assert text.index("<use ") < text.index("<path")
     assert text.count("<path") == sum(color is not None for color in shape.colors)
-    assert all(f'fill="{c}" fill-rule="evenodd" stroke="{c}"' in text for c in COLORS)
+    plain = text.replace(' fill-rule="evenodd"', "")  # of those with holes
+    assert all(f'fill="{c}" stroke="{c}"' in plain for c in COLORS)
     assert len(ss.read(output)) == len(shape)
     ss.write(tmp_path / "areas.pdf", shape)
     content = zlib.decompress((tmp_path / "areas.pdf").read_bytes().split(b"stream\n")[1])
