@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from shapespline.formats.svg_paint import color_and_opacity, share
+from shapespline.formats.svg_styles import tag_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,11 +48,11 @@ def _stops(
 ) -> list[tuple[float, bytes, float]]:
     """Offset, colour and opacity of each stop, those of another gradient if it has none."""
     for _ in range(MOST_REFERENCES):
-        if gradient is None or _tag(gradient) not in GRADIENTS:
+        if gradient is None or tag_of(gradient) not in GRADIENTS:
             return []
         found: list[tuple[float, bytes, float]] = []
         for stop in gradient:
-            if _tag(stop) != "stop":
+            if tag_of(stop) != "stop":
                 continue
             color, opacity = color_and_opacity(stop.attrib, "stop-color", "black")
             opacity *= share(stop.attrib, "stop-opacity", 1.0)
@@ -62,7 +63,3 @@ def _stops(
         target = next((gradient.get(name) for name in HREFS if gradient.get(name)), "") or ""
         gradient = ids.get(target.removeprefix("#"))
     return []
-
-
-def _tag(element: Element) -> str:
-    return str(element.tag).rpartition("}")[2]

@@ -147,5 +147,4 @@ def _number(values: Mapping[str, object], name: str, default: float) -> float:
 
 def is_zero(values: Mapping[str, object], name: str) -> bool:
     """Whether an opacity or a width is told to be 0, with whatever unit."""
-    match = LENGTH.fullmatch(str(values.get(name, "1")))
-    return match is not None and float(match[1]) == 0
+    return _number(values, name, 1.0) == 0

@@ -37,7 +37,7 @@ class Compound(NamedTuple):
 
     def fits(self, element: Element) -> bool:
         """Whether an element is such a one."""
-        return self.tag in ("*", _tag(element)) and self.names <= _names(element)
+        return self.tag in ("*", tag_of(element)) and self.names <= _names(element)
 
 
 class Rule(NamedTuple):
@@ -69,7 +69,7 @@ def styled(root: Element) -> list[str]:
     list of str
         Selectors of rules that are left out, once each.
     """
-    text = "\n".join("".join(one.itertext()) for one in root.iter() if _tag(one) == "style")
+    text = "\n".join("".join(one.itertext()) for one in root.iter() if tag_of(one) == "style")
     by_key: dict[str, list[Rule]] = {}
     unread: dict[str, None] = {}
     for place, (selector, declarations) in enumerate(_rules(text)):
@@ -87,7 +87,7 @@ def _write(element: Element, by_key: dict[str, list[Rule]], outer: list[Element]
     """Write what holds for an element into its attributes, and for those in it."""
     rules = (
         rule
-        for key in ("*", _tag(element), *_names(element))
+        for key in ("*", tag_of(element), *_names(element))
         for rule in by_key.get(key, ())
         if rule.last.fits(element) and _lies_in(rule.outer, outer)
     )
@@ -99,7 +99,7 @@ def _write(element: Element, by_key: dict[str, list[Rule]], outer: list[Element]
         for name, (value, important) in declarations.items():
             found[name] = max(found.get(name, (False, (), "")), (important, weight, value))
     # Pages have the size that their attributes say, whatever the window that they are shown in.
-    skipped = PLACES if _tag(element) == "svg" else ()
+    skipped = PLACES if tag_of(element) == "svg" else ()
     element.attrib.update({name: last for name, (*_, last) in found.items() if name not in skipped})
     for name in PAINTING:
         if element.get(name) == "inherit":  # as without it
@@ -185,7 +185,8 @@ def _rule(selector: str, declarations: dict[str, tuple[str, bool]], place: int) 
     return Rule(compounds[-1][1], outer, weight, declarations)
 
 
-def _tag(element: Element) -> str:
+def tag_of(element: Element) -> str:
+    """What an element is, without its namespace."""
     return str(element.tag).rpartition("}")[2]
 
 

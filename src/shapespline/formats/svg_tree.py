@@ -16,7 +16,7 @@ from xml.parsers import expat
 from shapespline.errors import FormatError
 from shapespline.formats.svg_gradients import HREFS, mean_color
 from shapespline.formats.svg_paint import is_zero, share
-from shapespline.formats.svg_styles import styled
+from shapespline.formats.svg_styles import styled, tag_of
 from shapespline.formats.svg_viewports import (
     LENGTHS,
     VIEWPORT,
@@ -93,8 +93,8 @@ def prepared(data: bytes) -> Page:
         If it is no SVG, cut off, declares entities, or grows beyond bounds.
     """
     root = _parsed(data)
-    if _tag(root) != "svg":
-        raise FormatError(f"no SVG drawing: its first element is <{_tag(root)}>")
+    if tag_of(root) != "svg":
+        raise FormatError(f"no SVG drawing: its first element is <{tag_of(root)}>")
     unread = styled(root)
     view_box = view_box_of(root)
     width, height = (page_length(root.get(name)) for name in ("width", "height"))
@@ -146,10 +146,6 @@ def _parsed(data: bytes) -> Element:
         raise FormatError(f"no SVG drawing, or cut off: {error}") from error
 
 
-def _tag(element: Element) -> str:
-    return str(element.tag).rpartition("}")[2]
-
-
 @dataclass
 class _Copier:
     """Copies what elements draw, elements that they use put in their places."""
@@ -185,7 +181,7 @@ class _Copier:
                 self.skipped[words] = None
         result = ElementTree.Element(str(element.tag), attributes)
         for child in element:
-            tag = _tag(child)
+            tag = tag_of(child)
             if child.get("display") == "none" or is_zero(child.attrib, "opacity"):
                 continue
             if tag in NAMED:
@@ -250,7 +246,7 @@ def _placed(use: Element, found: Element, size: Size | None) -> Element:
     group = _group(use, f"{use.get('transform', '')} translate({x} {y})")
     for name in (*HREFS, "id"):
         group.attrib.pop(name, None)
-    if _tag(found) in ("symbol", "svg"):  # both have a view box of their own
+    if tag_of(found) in ("symbol", "svg"):  # both have a view box of their own
         inner = _renamed(found, "svg")
         for name in ("width", "height"):
             inner.set(name, use.get(name, found.get(name, "100%")))

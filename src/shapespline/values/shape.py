@@ -17,7 +17,13 @@ from shapespline.values.contour import Contour, checked_contour
 from shapespline.values.equality import ByValue
 from shapespline.values.exchanged import Exchanged
 from shapespline.values.shown import Shown
-from shapespline.values.stroke import COLOR, Stroke, checked_strokes, checked_widths
+from shapespline.values.stroke import (
+    COLOR,
+    Stroke,
+    checked_strokes,
+    checked_widths,
+    one_for_each,
+)
 
 
 def checked_parents(parents: Sequence[int] | None, count: int) -> tuple[int, ...]:
@@ -73,17 +79,11 @@ def checked_colors(colors: Sequence[str | None] | None, count: int) -> tuple[str
     InvalidInputError
         If there are not as many, or one is not written as #rrggbb.
     """
-    if colors is None:
-        return (None,) * count
-    colors = tuple(colors)
-    if len(colors) != count:
-        raise InvalidInputError(
-            f"colors must name one colour for each: expected {count}, got {len(colors)}"
-        )
-    for color in colors:
+    listed = one_for_each(colors, "colors", "colour", count)
+    for color in listed:
         if color is not None and not (isinstance(color, str) and COLOR.fullmatch(color)):
             raise InvalidInputError(f"colors must be None or like '#ff8800', got {color!r}")
-    return colors
+    return listed
 
 
 def checked_reference(reference: object) -> str | None:

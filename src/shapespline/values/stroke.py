@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from shapespline.errors import InvalidInputError
 from shapespline.validation import is_number
@@ -12,6 +12,7 @@ from shapespline.validation import is_number
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+T = TypeVar("T")
 COLOR = re.compile("#[0-9a-f]{6}")
 BLACK = "#000000"
 CAPS, JOINS = ("round", "butt", "square"), ("round", "miter", "bevel")
@@ -39,6 +40,26 @@ class Stroke(NamedTuple):
     join: str = "round"
 
 
+def one_for_each(
+    items: Sequence[T | None] | None, name: str, noun: str, count: int
+) -> tuple[T | None, ...]:
+    """As many items as asked for; None for each by default.
+
+    Raises
+    ------
+    InvalidInputError
+        If there are not as many.
+    """
+    if items is None:
+        return (None,) * count
+    listed = tuple(items)
+    if len(listed) != count:
+        raise InvalidInputError(
+            f"{name} must name one {noun} for each: expected {count}, got {len(listed)}"
+        )
+    return listed
+
+
 def checked_widths(widths: Sequence[float | None] | None, count: int) -> tuple[float | None, ...]:
     """For each of ``count`` items the width of its stroke, None for none (the default).
 
@@ -47,17 +68,11 @@ def checked_widths(widths: Sequence[float | None] | None, count: int) -> tuple[f
     InvalidInputError
         If there are not as many, or one is no positive number.
     """
-    if widths is None:
-        return (None,) * count
-    widths = tuple(widths)
-    if len(widths) != count:
-        raise InvalidInputError(
-            f"widths must name one width for each: expected {count}, got {len(widths)}"
-        )
-    for width in widths:
+    listed = one_for_each(widths, "widths", "width", count)
+    for width in listed:
         if width is not None and not (is_number(width) and 0 < width <= sys.float_info.max):
             raise InvalidInputError(f"widths must be None or positive numbers, got {width!r:.40}")
-    return tuple(None if width is None else float(width) for width in widths)
+    return tuple(None if width is None else float(width) for width in listed)
 
 
 def checked_strokes(
@@ -70,14 +85,8 @@ def checked_strokes(
     InvalidInputError
         If there are not as many, one is no Stroke that can be drawn, or it has no width.
     """
-    if strokes is None:
-        return (None,) * len(widths)
-    strokes = tuple(strokes)
-    if len(strokes) != len(widths):
-        raise InvalidInputError(
-            f"strokes must name one Stroke for each: expected {len(widths)}, got {len(strokes)}"
-        )
-    for stroke, width in zip(strokes, widths, strict=True):
+    listed = one_for_each(strokes, "strokes", "Stroke", len(widths))
+    for stroke, width in zip(listed, widths, strict=True):
         if stroke is None:
             continue
         if not isinstance(stroke, Stroke) or not (
@@ -91,4 +100,4 @@ def checked_strokes(
             )
         if width is None:
             raise InvalidInputError(f"strokes must have a width each, got none for {stroke!r}")
-    return strokes
+    return listed
