@@ -44,6 +44,47 @@ def draw(tmp_path):
 # Curves
 
 
+@pytest.mark.parametrize("digits", [None, 4, 3, 2])
+def test_polylines_of_many_chords_are_fitted_as_what_they_were(draw, digits):
+    plate, hole = fillets(60, 40, 6, 12), circle(20, 15, 5, 48)
+    given = plate, hole
+    if digits is not None:
+        given = plate.round(digits), hole.round(digits)
+    drawing = draw(lambda s: [s.add_lwpolyline(points, close=True) for points in given])
+    # Rounding moves a radius by (|cos| + |sin|) / 2 steps at most.
+    off = 1e-6 if digits is None else 0.71 * 10.0**-digits
+    for tolerance in (None, 0.05):
+        outer, inner = (ss.fit_curve(fit.contour, tolerance=tolerance) for fit in drawing)
+        assert sorted(piece.kind for piece in outer.pieces) == ["arc"] * 4 + ["line"] * 4
+        assert [piece.kind for piece in inner.pieces] == ["arc"]
+        radii = [piece.arc.radius for piece in outer.pieces if piece.kind == "arc"]
+        assert radii == pytest.approx([6] * 4, abs=off)
+        assert inner.pieces[0].arc.radius == pytest.approx(5, abs=off)
+        assert inner.pieces[0].arc.centre == pytest.approx((20, 15), abs=off)
+
+
+def circle(x, y, radius, count):
+    angle = 2 * np.pi * np.arange(count) / count
+    return np.array([x, y]) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def fillets(width, height, radius, chords):
+    """A rectangle with round corners, as ends of edges and of chords."""
+    corners = [
+        (width - radius, height - radius),
+        (radius, height - radius),
+        (radius, radius),
+        (width - radius, radius),
+    ]
+    angle = np.linspace(0, np.pi / 2, chords + 1)
+    rows = [
+        np.array(corner)
+        + radius * np.column_stack([np.cos(angle + k * np.pi / 2), np.sin(angle + k * np.pi / 2)])
+        for k, corner in enumerate(corners)
+    ]
+    return np.concatenate(rows)
+
+
 POINTS = [(0, 0), (1, 4), (4, 4), (6, 0), (8, 2)]
 
 

@@ -3,12 +3,16 @@
 from shapespline.analysis.between_points import with_points_between
 from shapespline.analysis.corners import LEAST_TURN, LOW_TURN, find_corners
 from shapespline.analysis.cpda import Cpda, bending, check_window, chord_to_point, local_maxima
+from shapespline.analysis.drawn_vertices import are_drawn_vertices
+from shapespline.analysis.last_digit import rounded
 from shapespline.analysis.mirror import Mirror, find_mirror
 from shapespline.analysis.noise import (
     bends_evenly,
     bends_evenly_but_in_corners,
     largest_bulge,
+    left_of_cubics,
     noise_level,
+    tells_noise,
 )
 from shapespline.analysis.normalization import (
     FEW_LEFT,
@@ -41,6 +45,7 @@ from shapespline.analysis.straight_runs import (
     STRAIGHT_PART,
     filled,
     has_straight_runs,
+    with_points_on_lines,
 )
 
 __all__ = [
@@ -59,6 +64,7 @@ __all__ = [
     "NormalizedContour",
     "Ordering",
     "Resolution",
+    "are_drawn_vertices",
     "at_end",
     "averaged",
     "averages",
@@ -76,6 +82,7 @@ __all__ = [
     "has_straight_runs",
     "joint",
     "largest_bulge",
+    "left_of_cubics",
     "local_maxima",
     "looks_shuffled",
     "means_of",
@@ -83,6 +90,9 @@ __all__ = [
     "noise_level",
     "order_points",
     "resolution",
+    "rounded",
     "shared_arcs",
+    "tells_noise",
     "with_points_between",
+    "with_points_on_lines",
 ]

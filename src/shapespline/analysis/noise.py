@@ -71,13 +71,40 @@ def noise_level(contour: Contour) -> float:
 def scatter(contour: Contour) -> Scatter:
     """The same, and whether the points are the vertices of what was drawn."""
     known = contour.accuracy or 0.0
-    width = 2 * HALF_WINDOW + 1
-    if len(contour) < FEWEST_POINTS or contour.accuracy == 0:
+    if not tells_noise(contour):
         return Scatter(known)
+    level = max(known, left_of_cubics(contour))
+    tells = level > max(known, NO_NOISE * contour.box_diagonal)
+    if tells and are_drawn_vertices(contour.points, contour.closed, level):
+        return Scatter(known, of_vertices=True)
+    return Scatter(level)
+
+
+def tells_noise(contour: Contour) -> bool:
+    """Whether neighbours tell noise from bends: there are enough of them, and it is not known."""
+    return len(contour) >= FEWEST_POINTS and contour.accuracy != 0
+
+
+def left_of_cubics(contour: Contour) -> float:
+    """What neighbours leave of local cubics across the outline: noise, and the bends of few points.
+
+    0 for fewer than seven points of an open contour.
+
+    Examples
+    --------
+    >>> from shapespline import Contour
+    >>> t = 2 * np.pi * np.arange(24) / 24
+    >>> circle = Contour(np.column_stack([np.cos(t), np.sin(t)]), closed=True)
+    >>> 0.002 < left_of_cubics(circle) < 0.003
+    True
+    """
+    width = 2 * HALF_WINDOW + 1
     points = contour.points - contour.points[0]
     if contour.closed:
         points = np.concatenate([points[-HALF_WINDOW:], points, points[:HALF_WINDOW]])
     n_windows = len(points) - width + 1
+    if n_windows < 1:
+        return 0.0
     step = max(1, n_windows // MOST_WINDOWS)
     windows = np.empty((2, len(range(0, n_windows, step)), width))
     for k in range(width):
@@ -86,11 +113,7 @@ def scatter(contour: Contour) -> Scatter:
     across = x[:, 1:] * y[:, :1] - y[:, 1:] * x[:, :1]
     speed_sq = np.maximum(x[:, 0] ** 2 + y[:, 0] ** 2, np.finfo(float).tiny)
     level_sq = median((across**2).sum(axis=1) / speed_sq) / _CHI_SQUARED_MEDIAN
-    level = max(known, float(np.sqrt(level_sq)))
-    tells = level > max(known, NO_NOISE * contour.box_diagonal)
-    if tells and are_drawn_vertices(contour.points, contour.closed, level):
-        return Scatter(known, of_vertices=True)
-    return Scatter(level)
+    return float(np.sqrt(level_sq))
 
 
 def largest_bulge(contour: Contour) -> float:

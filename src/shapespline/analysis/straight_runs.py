@@ -26,6 +26,10 @@ FEWEST_STRAIGHT, STRAIGHT_PART = 8, 0.1
 FINER, ONE_CHORD, LEAST_TOLERANCES = 0.02, 0.6, 10.0
 # An edge so many times as long as the median edge was drawn as a line (ANA-11).
 LONG_EDGE = 8.0
+# So is one that many times as long as the median, if at each end it turns by more than that or the
+# next one is that many times shorter: no chord of an arc is so. Points in so many parts of it tell
+# that it is straight (ANA-21).
+LONGER, CORNER, PARTS = 3.0, np.radians(20.0), 3
 # At twice the distance of points a cubic leaves sixteen times as much of a bend, but as much of
 # scatter as before; beyond this factor it was a bend.
 BEND_GROWTH = 4.0
@@ -52,6 +56,41 @@ def filled(contour: Contour) -> Contour:
     if not contour.closed:
         points = np.concatenate([points, polyline[-1:]])
     return Contour.trusted(points, contour.closed, contour.accuracy)
+
+
+def with_points_on_lines(points: FloatArray, closed: bool) -> FloatArray:
+    """The points, and some on each edge that was drawn as a line, whose ends alone are given.
+
+    Examples
+    --------
+    >>> angle = np.linspace(0, np.pi, 19)
+    >>> arch = np.column_stack([np.cos(angle), np.sin(angle)])
+    >>> side = np.array([(-1.0, -2.0), (1.0, -2.0)])
+    >>> len(with_points_on_lines(np.concatenate([arch, side]), True))
+    27
+    """
+    polyline = np.concatenate([points, points[:1]]) if closed else points
+    along = np.diff(polyline, axis=0)
+    steps = np.hypot(*along.T)
+    long = steps > LONGER * median(steps)
+    if not long.any():
+        return points
+    before, after = np.roll(along, 1, axis=0), along
+    turns = np.abs(
+        np.arctan2(
+            before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1)
+        )
+    )
+    sharp = turns > CORNER
+    if not closed:
+        sharp[0] = True
+    at_begin = sharp | (LONGER * np.roll(steps, 1) < steps)
+    at_end = np.roll(sharp, -1) | (LONGER * np.roll(steps, -1) < steps)
+    parts = np.where(long & at_begin & at_end, PARTS, 1)
+    begins = np.repeat(np.arange(len(steps)), parts)
+    share = np.concatenate([np.arange(count) / count for count in parts.tolist()])
+    found = polyline[begins] + share[:, None] * along[begins]
+    return found if closed else np.concatenate([found, polyline[-1:]])
 
 
 def has_straight_runs(contour: Contour, tolerance: float) -> bool:

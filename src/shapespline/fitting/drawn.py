@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.analysis import resolution
+from shapespline.analysis import NOISE_BAND, largest_bulge, resolution
 from shapespline.engines.drawn import (
     ONE_BIT,
     DrawnArc,
     DrawnLine,
-    FreeRun,
     simplified,
 )
 from shapespline.engines.pieces import MirroredHalf
@@ -75,9 +74,9 @@ class DrawnPieces:
             )
             cost = None if candidate is None else self._cost(candidate, reading, problem)
             if candidate is not None and cost is not None:
-                dearer = RUNS_DEARER if _has_runs(reading) else 0.0
+                dearer = RUNS_DEARER if reading.has_runs else 0.0
                 proposed.append((cost + dearer, candidate, reading))
-                if not _has_runs(reading) and self._needs_no_other(cost):
+                if not reading.has_runs and self._needs_no_other(cost):
                     break
         if not proposed:
             return
@@ -101,7 +100,7 @@ class DrawnPieces:
             mirrored = len(found.parts) == 1 or any(o.name == "mirror" for o in found.regularities)
             if symmetric and not mirrored and MirroredHalf.of(problem.thinned):
                 return
-            if not (noisy and _has_runs(found)):  # what chains of elements left is no run by itself
+            if not (noisy and found.has_runs):  # what chains of elements left is no run by itself
                 yield found
         if noisy and not (of_picture or symmetric):
             yield from problem.between_corners
@@ -164,7 +163,7 @@ class DrawnPieces:
 
         Within a tolerance where points are clean; without one noisy ones are smoothed.
         """
-        if problem.contour.level_line is not None or not _has_runs(found):
+        if problem.contour.level_line is not None or not found.has_runs:
             return None
         degree, scale = problem.request.style.degree, problem.upright.scale
         if self.estimation is None:
@@ -192,7 +191,9 @@ class DrawnPieces:
         contour, shown = problem.contour, self.estimation.shown
         found = two_sided_distance(joined(candidate.pieces, problem.request.style.degree), contour)
         # What was not drawn is a curve like others, and those follow what clean points tell.
-        farthest = beyond = FARTHEST * shown.band
+        # What lines and arcs alone tell of errors does not show in the points.
+        supposed = NOISE_BAND * drawn.supposed / problem.upright.scale
+        farthest = beyond = FARTHEST * (shown.band + supposed)
         if not drawn.is_told:  # a curve like others, and those follow what clean points tell
             farthest = min(farthest, FARTHEST * shown.told)
         step = median(np.diff(contour.arc_length))
@@ -202,9 +203,12 @@ class DrawnPieces:
             beyond = min(max(beyond, FARTHEST_CORNER * accuracy), 2.0 * step)
             if accuracy > ONE_BIT * step:
                 found = found.beside(candidate.pieces)
-        elif len(candidate.pieces) > 1:
+        elif len(candidate.pieces) == 1:
+            # A circle bulges beyond the chords of its points.
+            beyond = max(beyond, FARTHEST * largest_bulge(contour))
+        else:
             # Corners lie between points, those of a right angle half a step from their chord.
-            beyond = max(beyond, step if not _has_runs(drawn) or shown.clean else 0.5 * step)
+            beyond = max(beyond, step if not drawn.has_runs or shown.clean else 0.5 * step)
         if found.max_distance > farthest or found.reverse_distance > beyond:
             return None
         # What is left of a picture's slow errors is no noise.
@@ -212,10 +216,6 @@ class DrawnPieces:
             return 0.0
         n_unknowns = drawn.n_unknowns + 2 * _n_of_runs(candidate.pieces, drawn)
         return self.estimation.cost_of(candidate.pieces, n_unknowns, told=drawn.is_told)
-
-
-def _has_runs(drawn: Drawn) -> bool:
-    return any(isinstance(part, FreeRun) for part in drawn.parts)
 
 
 def _n_of_runs(pieces: tuple[Piece, ...], drawn: Drawn) -> int:

@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from tests.support.shapes import flower, rectangle, wave
 
-from shapespline.analysis.noise import HALF_WINDOW, bends_evenly, noise_level
+from shapespline.analysis.noise import (
+    FEWEST_POINTS,
+    HALF_WINDOW,
+    bends_evenly,
+    left_of_cubics,
+    noise_level,
+    tells_noise,
+)
 from shapespline.values.contour import Contour
 
 DEGREES_OF_FREEDOM = 2 * HALF_WINDOW + 1 - 4
@@ -92,3 +99,27 @@ def test_curves_bend_evenly_and_corners_and_noise_do_not(seed):
     found = [bends_evenly(rows) for rows in (waves, waves[::-1], teeth, teeth[::-1], noise, shaken)]
     assert found == [True, True, False, False, False, False]
     assert not bends_evenly(waves[:4])
+
+
+def test_few_points_and_exact_ones_do_not_tell_their_noise():
+    points = flower(400).points
+    assert tells_noise(Contour(points, closed=True))
+    assert not tells_noise(Contour(points[: FEWEST_POINTS - 1], closed=False))
+    assert not tells_noise(Contour(points, closed=True, accuracy=0.0))
+
+
+def test_cubics_leave_noise_of_few_points_too():
+    angle = 2 * np.pi * np.arange(60) / 60
+    circle = 30 * np.column_stack([np.cos(angle), np.sin(angle)])
+    levels = []
+    for seed in range(20):
+        noise = np.random.default_rng(seed).normal(0, 0.1, circle.shape)
+        contour = Contour(circle + noise, closed=True)
+        assert noise_level(contour) == 0.0
+        levels.append(left_of_cubics(contour))
+    # Twenty times eight windows that do not overlap; bends leave 2e-4.
+    assert abs(np.mean(levels) / 0.1 - 1) <= 4 * spread(20 * 60 / 7) + 0.01
+
+
+def test_too_few_points_leave_nothing():
+    assert left_of_cubics(Contour([(0, 0), (1, 1), (2, 0), (3, 1)], closed=False)) == 0.0

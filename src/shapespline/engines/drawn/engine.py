@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline import _kernels
 from shapespline.engines.drawn.assembly import assembled
 from shapespline.engines.drawn.beginnings import without_beginnings
 from shapespline.engines.drawn.between_corners import rows_between_corners
@@ -14,7 +14,6 @@ from shapespline.engines.drawn.ends import at_corners
 from shapespline.engines.drawn.estimated import MOST_WRONG, Estimated, begun, estimated, settled
 from shapespline.engines.drawn.fillets import rows_with_fillets
 from shapespline.engines.drawn.judgement import (
-    LARGEST,
     is_enough,
     is_plain,
     is_short,
@@ -24,7 +23,7 @@ from shapespline.engines.drawn.judgement import (
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.nearby import rows_nearby
 from shapespline.engines.drawn.observed import Observed
-from shapespline.engines.drawn.parts import Drawn, DrawnArc
+from shapespline.engines.drawn.parts import Drawn
 from shapespline.engines.drawn.regularities import NAMES, Search
 from shapespline.engines.drawn.repeats import free_runs, rows_repeated
 from shapespline.engines.drawn.segments import (
@@ -36,21 +35,19 @@ from shapespline.engines.drawn.segments import (
     supported,
 )
 from shapespline.engines.drawn.sharing import shared_anew
-from shapespline.geometry import signed_area
-from shapespline.values import Arc
+from shapespline.engines.drawn.supposed import suppositions
+from shapespline.engines.drawn.whole_circle import ROUND, whole_circle
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Collection, Iterable, Iterator
 
     from shapespline.engines.drawn.segments import Segment
+    from shapespline.engines.drawn.supposed import Supposition
     from shapespline.typing import FloatArray
     from shapespline.values import Contour
 
 # Fewer points tell no structure.
 FEWEST_POINTS = 12
-# A whole circle is within so many deviations in the mean (DRA-06), of measured points, whose errors
-# are independent, fewer (DRA-16).
-ROUND, ROUND_OF_POINTS = 2.0, 1.3
 # An outline of more elements than these that have fewer points each is none that was drawn, which
 # takes long to find out (DRA-10).
 MANY_ELEMENTS, POINTS_EACH = 40, 5
@@ -63,6 +60,10 @@ LEAST_SAVED, SAVED_PART = 6.0, 0.1
 # What such a telling holds in part only gives way to the exact one, unless that is so many times
 # longer, as chords of curves are (DRA-29).
 CHORDS = 1.33
+# Points of unknown errors that are free-form in a larger part are no lines and arcs (DRA-47).
+MOST_FREE = 0.35
+# Stored points of a circle, than which nothing is simpler.
+SIMPLEST = 2
 # Rows with more segments are found at that part of their price (DRA-38).
 FINER = 0.5
 
@@ -101,12 +102,58 @@ def as_drawn(
     if len(contour) < FEWEST_POINTS:
         return None
     seen = Observed.of(contour, accuracy)
-    if contour.closed:
-        whole = _whole_circle(_rough(seen, tolerance) or seen)
-        if whole is not None:
-            return Drawn((whole,), (), is_told=True, n_unknowns=3)
     ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
-    for one, row, as_whole in _readings(seen, tolerance):
+    best = _circle(_rough(seen, tolerance) or seen.by_digits(), supposed=seen.rounding)
+    if best is None:
+        best = _first_told(_readings(seen, tolerance), ends, regularities, tolerance)
+    if accuracy is not None:
+        return best
+    readings = (
+        (one, _supposed(one, ends, regularities, tolerance)) for one in suppositions(contour, seen)
+    )
+    return _simplest(best, readings)
+
+
+def _simplest(
+    best: Drawn | None, readings: Iterable[tuple[Supposition, Drawn | None]]
+) -> Drawn | None:
+    """Of points as exact and with larger and larger errors: the first reading of lines and arcs.
+
+    Or one that is as good as exact, or the next one, if it is simpler: errors half as large as they
+    are leave elements that nobody drew.
+    """
+    told = best is not None and best.is_told
+    plain = best if best is not None and told and not best.has_runs else None
+    for one, other in readings:
+        if (plain is not None and plain.size <= SIMPLEST) or (told and not one.nearly_exact):
+            break
+        is_plain = other is not None and not other.has_runs
+        if plain is None and is_plain:
+            plain = other
+        elif plain is not None:
+            if other is not None and is_plain and other.size < plain.size:
+                plain = other
+            if not one.nearly_exact:
+                break
+        elif other is not None and not told:
+            best, told = other, True
+    return best if plain is None else plain
+
+
+def _circle(seen: Observed, *, supposed: float = 0.0, independent: bool = False) -> Drawn | None:
+    """A closed outline as a whole circle, if it is one."""
+    arc = whole_circle(seen, independent=independent) if seen.closed else None
+    return None if arc is None else Drawn((arc,), (), True, n_unknowns=3, supposed=supposed)
+
+
+def _first_told(
+    readings: Iterable[tuple[Observed, Segments, bool]],
+    ends: FloatArray | None,
+    regularities: Collection[str],
+    tolerance: float,
+) -> Drawn | None:
+    """The first reading that holds."""
+    for one, row, as_whole in readings:
         best = _of_row(one, row, ends, tolerance, whole=as_whole)
         if best is None:
             continue
@@ -114,6 +161,21 @@ def as_drawn(
             best = _cheapest(best, row)
         return _finished(best, regularities, tolerance)
     return None
+
+
+def _supposed(
+    one: Supposition, ends: FloatArray | None, regularities: Collection[str], tolerance: float
+) -> Drawn | None:
+    """What points tell that are supposed to have larger errors, if they tell enough."""
+    found = _circle(one.seen, independent=not one.by_rounding)
+    if found is None and one.n_each:
+        row = segmented(one.seen)
+        n_free = sum(segment.end - segment.begin for segment in row.found if segment.kind == FREE)
+        if one.by_rounding or n_free <= MOST_FREE * len(row.points):
+            found = _first_told([(one.seen, row, False)], ends, regularities, tolerance)
+    if found is None or not one.tells(found):
+        return None
+    return replace(found, supposed=one.seen.deviation)
 
 
 def drawn_between_corners(
@@ -281,17 +343,3 @@ def _is_shorter(again: Segments, row: Segments, pixel: float) -> bool:
     if all(segment.kind != FREE for segment in again.found):
         return saved >= max(LEAST_SAVED, SAVED_PART * told)
     return saved > SAVED * row.stations[-1] / pixel
-
-
-def _whole_circle(seen: Observed) -> DrawnArc | None:
-    """All points as one circle."""
-    points = seen.points
-    cx, cy, r = _kernels.circle_through(points, np.ones(len(points)))
-    off = np.hypot(points[:, 0] - cx, points[:, 1] - cy) - r
-    most = ROUND if seen.pixel else ROUND_OF_POINTS
-    mean, largest = float(np.sqrt((off**2).mean())), float(np.abs(off).max())
-    if mean > most * seen.largest_deviation or largest > LARGEST * seen.largest_deviation:
-        return None
-    arc = Arc((cx, cy), r, 0.0, float(np.copysign(2 * np.pi, signed_area(points))))
-    begin = np.array([cx + r, cy])
-    return DrawnArc(arc, begin, begin)

@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.analysis import means_of, neighbours_to_average, noise_level
+from shapespline.analysis import (
+    means_of,
+    neighbours_to_average,
+    noise_level,
+    rounded,
+    with_points_on_lines,
+)
 from shapespline.engines.drawn.told_arcs import told_arcs
 from shapespline.validation import median
 from shapespline.values import Contour
@@ -30,10 +36,9 @@ APART = 4.0
 ONE_BIT = 0.15
 # Points of a table are not known better than this part of the extent (DRA-02).
 LAST_DIGIT = 1e-5
-# Where all of them have so many decimals, rounding to steps of the last one deviates by a step over
-# this, if steps are no more than this part of the extent and as much of it shows between neighbours
-# (DRA-46). How near to whole numbers of steps they lie; and how many differences tell the step.
-ROUNDED, COARSEST, VISIBLE, ON_GRID, MOST_DIFFERENCES = 12.0**0.5, 1e-3, 0.2, 1e-3, 256
+# Of points with so many decimals it is what rounding leaves, if as much of that shows between
+# neighbours (DRA-46).
+VISIBLE = 0.2
 # Of more points than these every so many-th is looked at: of clean ones, of noisy ones, which are
 # averaged first (DRA-03), and those of a picture, which all count (DRA-09).
 MOST_POINTS, MOST_NOISY = 1000, 6000
@@ -61,6 +66,8 @@ class Observed:
         All points, of which so many are looked at.
     exact : bool
         Whether measured points have no noise but that of a table's last digits.
+    rounding : float
+        What their last digits leave, as far as they show it.
     """
 
     points: FloatArray
@@ -72,6 +79,7 @@ class Observed:
     apart: float = 1.0
     whole: FloatArray | None = None
     exact: bool = False
+    rounding: float = 0.0
 
     @classmethod
     def of(cls, contour: Contour, accuracy: float | None) -> Observed:
@@ -91,7 +99,7 @@ class Observed:
         # are exact.
         exact = 0.0 if contour.accuracy == 0 else None
         deviation = noise_level(Contour.trusted(points, closed, exact))
-        rounding = _rounding(points, extent)
+        rounding = rounded(points, closed, LAST_DIGIT * extent)
         if deviation > VISIBLE * rounding:
             deviation = max(deviation, rounding)
         deviation = max(deviation, LAST_DIGIT * extent)
@@ -104,8 +112,28 @@ class Observed:
             points = means_of(points, k)
             deviation = max(deviation / k**0.5, LAST_DIGIT * extent)
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
+        if k == 1 and whole is None:
+            points = with_points_on_lines(points, closed)
         is_exact = k == 1 and deviation == LAST_DIGIT * extent
-        return cls(points, closed, deviation, deviation, 0.0, 0.0, whole=whole, exact=is_exact)
+        return cls(
+            points,
+            closed,
+            deviation,
+            deviation,
+            0.0,
+            0.0,
+            whole=whole,
+            exact=is_exact,
+            rounding=rounding,
+        )
+
+    def by_digits(self) -> Observed:
+        """The same no better known than to the last digit."""
+        return self.less_exact(self.rounding) if self.rounding > self.deviation else self
+
+    def less_exact(self, deviation: float) -> Observed:
+        """Measured points the same, supposed to have such errors."""
+        return self._but(deviation=deviation, largest_deviation=deviation, exact=False)
 
     def rougher(self, factor: float) -> Observed:
         """The same of a picture so many times less exact than its kind is."""
@@ -168,22 +196,3 @@ def _thinned(points: FloatArray, closed: bool, every: int) -> FloatArray:
     """Every so many-th point, and both ends of an open row."""
     rest = points[-1:] if not closed and (len(points) - 1) % every else points[:0]
     return np.concatenate([points[::every], rest])
-
-
-def _rounding(points: FloatArray, extent: float) -> float:
-    """Standard deviation of coordinates that are all whole numbers of one step; else 0.
-
-    The step is what coordinates that are next to each other differ by, by Euclid's algorithm.
-    Coarse ones are no rounding, and what fine ones do is less than `LAST_DIGIT`.
-    """
-    offsets, finest = points - points[0], LAST_DIGIT * extent
-    between = np.diff(np.sort(offsets, axis=None))
-    between = between[between > finest]
-    step = np.inf
-    for rest in between[:: ceil(len(between) / MOST_DIFFERENCES) or 1].tolist():
-        while rest > finest:
-            step, rest = rest, abs(step - rest * round(step / rest)) if step < np.inf else 0.0
-    if step > COARSEST * extent:
-        return 0.0
-    counts = offsets / step
-    return step / ROUNDED if (np.abs(counts - np.round(counts)) <= ON_GRID).all() else 0.0

@@ -46,13 +46,29 @@ class Drawn:
     """Parts end to end, and the regularities that they keep, by their places among the parts.
 
     ``is_told`` if these are enough to tell that it was drawn so; ``n_unknowns`` numbers of lines
-    and arcs are what they leave free.
+    and arcs are what they leave free; ``supposed`` is the standard deviation that these tell of
+    points whose neighbours tell none, 0 of others.
     """
 
     parts: tuple[Part, ...]
     regularities: tuple[Regularity, ...]
     is_told: bool
     n_unknowns: int
+    supposed: float = 0.0
+
+    @property
+    def has_runs(self) -> bool:
+        """Whether some of it is neither line nor arc."""
+        return any(isinstance(part, FreeRun) for part in self.parts)
+
+    @property
+    def size(self) -> int:
+        """Stored points of lines and arcs, one and two each."""
+        return sum(
+            2 if isinstance(part, DrawnArc) else 1
+            for part in self.parts
+            if not isinstance(part, FreeRun)
+        )
 
     @property
     def share(self) -> float:

@@ -35,6 +35,8 @@ JOINTS = _kernels.JointPrices(
 )
 # Points on either side of a node that the second search tries, and of the first cut.
 NEAR, FREED = 3, 40
+# Of so few points a node that is one point off is far off: each is tried as the first (DRA-47).
+FEW_POINTS = 80
 # A piece is at least so long: in lengths that do not count, those of a picture of one bit, whose
 # stairs are straight for a while (DRA-14), in steps (DRA-01).
 SHORTEST_BLUNTED, SHORTEST_STAIRS, SHORTEST_STEPS = 2.2, 6.0, 2.5
@@ -130,10 +132,28 @@ def segmented(seen: Observed, known: Segments | None = None, *, price: float = P
         near = near[(near > 0) & (near < n)]
         again, other = _solved(seen, begin, about, near, price=price)
         if other <= cost * (1 + 1e-12):
-            best = again
+            best, cost = again, other
+    if not seen.pixel and n <= FEW_POINTS:
+        best = _cut_anew(seen, best, cost, price)
     best = _merged(best, seen)
     whole = next((k for k, s in enumerate(best.found) if s.kind != FREE), 0)
     return best.turned(whole)
+
+
+def _cut_anew(seen: Observed, best: Segments, cost: float, price: float) -> Segments:
+    """Segments of a closed outline that begins at any of their nodes, while they cost less.
+
+    Only lines and arcs alone: where runs are left there are others that cost as little.
+    """
+    known, n = best, len(seen.points)
+    tried: set[int] = set()
+    while untried := {(best.first + s.begin) % n for s in best.found} - tried:
+        at = min(untried)
+        tried.add(at)
+        again, other = _solved(seen, at, price=price)
+        if other < cost * (1 - 1e-12):
+            best, cost = again, other
+    return known if any(segment.kind == FREE for segment in best.found) else best
 
 
 def _between(seen: Observed, told: Sequence[tuple[int, int]], price: float) -> Segments:

@@ -1,0 +1,61 @@
+"""What rounding to the last digit of a table or a file leaves of points."""
+
+from __future__ import annotations
+
+from math import ceil, inf
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.validation import median
+
+if TYPE_CHECKING:
+    from shapespline.typing import BoolArray, FloatArray
+
+# Rounding to steps deviates by a step over this. Steps beyond this part of the extent, or of what
+# lies between neighbours, are no rounding (DRA-46, DRA-47). How near to whole numbers of steps
+# points lie; how many differences tell it.
+ROUNDED, COARSEST, COARSE, ON_GRID, MOST_DIFFERENCES = 12.0**0.5, 1e-3, 0.1, 1e-3, 256
+# Points on the straight way between their neighbours, but for a turn of so much, were put there.
+STRAIGHT = 1e-9
+
+
+def rounded(points: FloatArray, closed: bool, finest: float) -> float:
+    """Standard deviation of coordinates that are all whole numbers of one step; else 0.
+
+    The step is what coordinates that are next to each other differ by, by Euclid's algorithm; finer
+    ones than `finest` are none. Points straight between their neighbours do not count: those that
+    were put on edges have digits of their own.
+
+    Examples
+    --------
+    >>> angle = np.pi * np.arange(50) / 25
+    >>> circle = 5 * np.column_stack([np.cos(angle), np.sin(angle)])
+    >>> bool(np.isclose(rounded(circle.round(2), True, 1e-4), 0.01 / 12**0.5))
+    True
+    >>> rounded(circle, True, 1e-4)
+    0.0
+    """
+    points = points[_turning(points, closed)]
+    offsets = points - points[0]
+    between = np.diff(np.sort(offsets, axis=None))
+    between = between[between > finest]
+    step = inf
+    for rest in between[:: ceil(len(between) / MOST_DIFFERENCES) or 1].tolist():
+        while rest > finest:
+            step, rest = rest, abs(step - rest * round(step / rest)) if step < inf else 0.0
+    apart = median(np.hypot(*np.diff(points, axis=0).T)) if len(points) > 1 else 0.0
+    if step > max(COARSEST * float(np.ptp(points, axis=0).max()), COARSE * apart):
+        return 0.0
+    counts = offsets / step
+    return step / ROUNDED if (np.abs(counts - np.round(counts)) <= ON_GRID).all() else 0.0
+
+
+def _turning(points: FloatArray, closed: bool) -> BoolArray:
+    """Whether the way turns at each point, or ends there."""
+    row = np.concatenate([points[-1:], points, points[:1]]) if closed else points
+    along = np.diff(row, axis=0)
+    (ax, ay), (bx, by) = along[:-1].T, along[1:].T
+    turns = np.abs(ax * by - ay * bx) > STRAIGHT * (np.hypot(ax, ay) * np.hypot(bx, by))
+    turns |= ax * bx + ay * by < 0.0
+    return turns if closed else np.concatenate([[True], turns, [True]])

@@ -1,0 +1,116 @@
+"""Few points, whose noise nobody knows: what lines and arcs tell of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from benchmarks.drawn.few_points import (
+    COUNTS,
+    SHAPES,
+    exported,
+    fitted,
+    is_right,
+    measured,
+    organic,
+    shaken,
+)
+
+import shapespline as ss
+from shapespline.engines.drawn.engine import as_drawn
+from shapespline.engines.drawn.observed import Observed
+from shapespline.engines.drawn.supposed import OF_STEP_ROUND, suppositions
+
+CIRCLE = SHAPES["circle"]
+
+
+def kinds(fit):
+    return [piece.kind for piece in fit.pieces]
+
+
+@pytest.mark.parametrize("noise", [0.0002, 0.0005, 0.001])
+@pytest.mark.parametrize("count", COUNTS)
+def test_a_circle_of_few_shaken_points_is_one(count, noise):
+    points = measured(CIRCLE, count, noise, np.random.default_rng(count))
+    deviation = noise * float(np.hypot(*np.ptp(points, axis=0)))
+    for tolerance in (None, 0.005):
+        fit = fitted(points, tolerance)
+        assert kinds(fit) == ["arc"]
+        # Radius and centre of n points are known to about sqrt(2 / n) deviations, three allowed.
+        off = 3 * deviation * (2 / count) ** 0.5
+        assert fit.pieces[0].arc.radius == pytest.approx(30, abs=off)
+        assert fit.pieces[0].arc.centre == pytest.approx((20, 15), abs=off)
+
+
+@pytest.mark.parametrize("name", ["slot", "plate"])
+@pytest.mark.parametrize("digits", [None, 3, 2])
+def test_vertices_as_programs_export_them_are_lines_and_arcs(name, digits):
+    for chords in (6, 12, 24):
+        assert is_right(exported(SHAPES[name], chords, digits), SHAPES[name], None)
+
+
+@pytest.mark.parametrize("name", ["bay", "tab"])
+def test_edges_of_which_the_ends_alone_are_given_are_lines(name):
+    # Two corners are round, two sharp: the price of an edge with two points is that of more.
+    for chords in (12, 24):
+        assert is_right(exported(SHAPES[name], chords, 2), SHAPES[name], None)
+        assert is_right(exported(SHAPES[name], chords, 2), SHAPES[name], 0.005)
+
+
+@pytest.mark.parametrize("name", ["slot", "bay", "rectangle"])
+def test_few_shaken_points_are_lines_and_arcs(name):
+    points = measured(SHAPES[name], 60, 0.0005, np.random.default_rng(1))
+    assert is_right(points, SHAPES[name], None)
+
+
+@pytest.mark.parametrize("name", list(organic()))
+@pytest.mark.parametrize("noise", [0.0, 0.001])
+def test_what_has_no_arcs_gets_none(name, noise):
+    at = organic()[name]
+    for count in COUNTS:
+        points = shaken(at, count, noise, np.random.default_rng(count))
+        assert "arc" not in kinds(fitted(points, None))
+
+
+def test_a_nearly_round_ellipse_is_no_circle():
+    # Out of round by two thousandths of its radius: what is left goes on from point to point.
+    angle = 2 * np.pi * np.arange(48) / 48
+    points = np.column_stack([30 * np.cos(angle), 29.88 * np.sin(angle)])
+    assert "arc" not in kinds(fitted(points, None))
+
+
+def test_points_that_tell_their_noise_are_not_supposed_to_have_more():
+    points = measured(CIRCLE, 200, 0.001, np.random.default_rng(0))
+    contour = ss.Contour(points, closed=True)
+    assert not list(suppositions(contour, Observed.of(contour, None)))
+
+
+def test_suppositions_grow_up_to_what_a_circle_may_have():
+    contour = ss.Contour(measured(CIRCLE, 24, 0.001, np.random.default_rng(0)), closed=True)
+    seen = Observed.of(contour, None)
+    found = list(suppositions(contour, seen))
+    deviations = [one.seen.deviation for one in found]
+    assert deviations == sorted(deviations)
+    assert seen.deviation < deviations[0]
+    assert deviations[-1] <= OF_STEP_ROUND * seen.step
+    assert [one.n_each for one in found] == sorted((one.n_each for one in found), reverse=True)
+
+
+def test_points_of_a_file_are_exact_but_for_their_digits():
+    points = exported(SHAPES["plate"], 12, None)
+    exact = ss.Contour(points, closed=True, accuracy=0.0)
+    assert not list(suppositions(exact, Observed.of(exact, None)))
+    rounded = ss.Contour(points.round(2), closed=True, accuracy=0.0)
+    found = list(suppositions(rounded, Observed.of(rounded, None)))
+    assert found
+    assert all(one.by_rounding for one in found)
+
+
+def test_what_lines_and_arcs_tell_of_errors_is_told():
+    points = measured(CIRCLE, 48, 0.001, np.random.default_rng(0))
+    contour = ss.Contour(points, closed=True)
+    found = as_drawn(contour)
+    # To a factor of two, and what 48 points leave open: 10 %, of which three times.
+    noise = 0.001 * contour.box_diagonal
+    assert 0.35 * noise < found.supposed < 2.6 * noise
+    clean = ss.Contour(measured(CIRCLE, 48, 0.0, np.random.default_rng(0)), closed=True)
+    assert as_drawn(clean).supposed == 0.0
