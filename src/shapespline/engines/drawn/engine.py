@@ -39,7 +39,7 @@ from shapespline.engines.drawn.supposed import suppositions
 from shapespline.engines.drawn.whole_circle import ROUND, whole_circle
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
+    from collections.abc import Callable, Collection, Iterable, Iterator
 
     from shapespline.engines.drawn.segments import Segment
     from shapespline.engines.drawn.supposed import Supposition
@@ -62,8 +62,8 @@ LEAST_SAVED, SAVED_PART = 6.0, 0.1
 CHORDS = 1.33
 # Points of unknown errors that are free-form in a larger part are no lines and arcs (DRA-47).
 MOST_FREE = 0.35
-# Stored points of a circle, than which nothing is simpler.
-SIMPLEST = 2
+# Stored points of a line and of a circle, than which nothing open or closed is simpler.
+SIMPLEST_OPEN, SIMPLEST_CLOSED = 1, 2
 # Rows with more segments are found at that part of their price (DRA-38).
 FINER = 0.5
 
@@ -108,14 +108,19 @@ def as_drawn(
         best = _first_told(_readings(seen, tolerance), ends, regularities, tolerance)
     if accuracy is not None:
         return best
-    readings = (
-        (one, _supposed(one, ends, regularities, tolerance)) for one in suppositions(contour, seen)
+    return _simplest(
+        best,
+        suppositions(contour, seen),
+        lambda one: _supposed(one, ends, regularities, tolerance),
+        SIMPLEST_CLOSED if seen.closed else SIMPLEST_OPEN,
     )
-    return _simplest(best, readings)
 
 
 def _simplest(
-    best: Drawn | None, readings: Iterable[tuple[Supposition, Drawn | None]]
+    best: Drawn | None,
+    suppositions: Iterable[Supposition],
+    read: Callable[[Supposition], Drawn | None],
+    fewest: int,
 ) -> Drawn | None:
     """Of points as exact and with larger and larger errors: the first reading of lines and arcs.
 
@@ -124,9 +129,10 @@ def _simplest(
     """
     told = best is not None and best.is_told
     plain = best if best is not None and told and not best.has_runs else None
-    for one, other in readings:
-        if (plain is not None and plain.size <= SIMPLEST) or (told and not one.nearly_exact):
+    for one in suppositions:
+        if (plain is not None and plain.size <= fewest) or (told and not one.nearly_exact):
             break
+        other = read(one)
         is_plain = other is not None and not other.has_runs
         if plain is None and is_plain:
             plain = other

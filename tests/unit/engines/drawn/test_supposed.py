@@ -71,6 +71,21 @@ def test_what_has_no_arcs_gets_none(name, noise):
         assert "arc" not in kinds(fitted(points, None))
 
 
+@pytest.mark.parametrize("noise", [0.003, 0.01])
+@pytest.mark.parametrize("count", [24, 40])
+def test_open_rows_of_few_points_are_lines_and_arcs(count, noise):
+    angle, x = np.linspace(0, np.pi / 2, count), np.linspace(0, 20, count)
+    rows = {
+        "arc": np.column_stack([10 * np.cos(angle), 10 * np.sin(angle)]),
+        "line": np.column_stack([x, 0.3 * x]),
+    }
+    for kind, row in rows.items():
+        for seed in range(3):
+            points = row + np.random.default_rng(seed).normal(0, noise, row.shape)
+            fit = ss.fit_curve(ss.Contour(points, closed=False))
+            assert kinds(fit) == [kind]
+
+
 def test_a_nearly_round_ellipse_is_no_circle():
     # Out of round by two thousandths of its radius: what is left goes on from point to point.
     angle = 2 * np.pi * np.arange(48) / 48
