@@ -222,10 +222,44 @@ def drawings(folder: Path) -> None:
     save(figure, TARGET / "drawings.png", dpi=80)
 
 
+def plate(path: Path) -> None:
+    """A plate as a program exports it: fillets, slot and holes as chords, two digits."""
+
+    def arc(x: float, y: float, radius: float, begin: float, end: float) -> FloatArray:
+        angle = np.radians(np.linspace(begin, end, round(abs(end - begin) / 7.5) + 1))
+        return np.array([x, y]) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+    corners = ((72, 42, 0), (8, 42, 90), (8, 8, 180), (72, 8, 270))
+    outlines = [np.concatenate([arc(x, y, 8, begin, begin + 90) for x, y, begin in corners])]
+    outlines.append(np.concatenate([arc(52, 25, 6, -90, 90), arc(28, 25, 6, 90, 270)]))
+    outlines += [arc(x, y, 3, 0, 352.5) for x, y, _ in corners]
+    document = ezdxf.new("R2010", units=4)  # millimetres
+    for points in outlines:
+        document.modelspace().add_lwpolyline(points.round(2), close=True)
+    document.saveas(path)
+
+
+def chords(folder: Path) -> None:
+    """A plate of chords, and the lines, arcs and circles that come back."""
+    plate(folder / "plate.dxf")
+    run(folder, "fit", "plate.dxf", "-o", "arcs.dxf", "--tolerance", "0.02")
+    figure, axes = canvas(2)
+    for one, name in zip(axes, ("plate.dxf", "arcs.dxf"), strict=True):
+        pieces = [piece for fit in ss.read(folder / name) for piece in fit.pieces]
+        for piece in pieces:
+            curve = ss.BSplineCurve(piece.knots, piece.control_points, piece.degree)
+            points = curve(np.linspace(*piece.knots[[0, -1]], 200))
+            one.plot(*points.T, color=BLUE if piece.kind == "arc" else ORANGE, lw=1.6)
+            one.plot(*points[[0, -1]].T, "o", color=GREY, ms=3)
+        count = {kind: sum(piece.kind == kind for piece in pieces) for kind in ("line", "arc")}
+        one.set_title(f"{name}: {count['line']} lines, {count['arc']} arcs and circles")
+    save(figure, TARGET / "chords.png", dpi=80)
+
+
 def main() -> None:
     """All of them, in a temporary folder."""
     pages = (logo_to_dxf, machines, leaf_to_step, points_to_svg, folder_of_files, centerlines)
-    pages += (drawings,)
+    pages += (drawings, chords)
     for page in pages:
         with tempfile.TemporaryDirectory() as folder:
             page(Path(folder))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 
+from benchmarks.drawn.few_points import exported_table, measured_table, organic_table
 from benchmarks.drawn.limits import limits_table
 from benchmarks.drawn.page import write_page
 from benchmarks.drawn.profiles import clean_table, profiles_table
@@ -33,6 +34,25 @@ and curves and no bits beside, without a tolerance and within some, parts of the
 
 """
 
+FEW = """
+Few measured points, 24 to 60 of shapes 60 wide (`python -m benchmarks.drawn.few_points`): how many
+fits have the lines and arcs that were drawn and nothing else. Within a tolerance corners between
+the points are out of reach where their chord is farther off; of 24 points an arc of a plate or a
+tab has two.
+
+"""
+
+EXPORTED = """
+Vertices of lines and arcs of all plates and icons as programs export them, ends of edges and of
+chords, four and more for each arc.
+
+"""
+
+ORGANIC = """
+Few points of shapes without lines and arcs: how many fits have arcs.
+
+"""
+
 
 def main() -> None:
     """Print the tables; with --page write the page and its pictures."""
@@ -41,6 +61,7 @@ def main() -> None:
     asked = parser.parse_args()
     pictures, points = pictures_tables(), f"{sampled_table()}\n{recovered_table()}\n{LIMITS}"
     points += f"{limits_table()}{PROFILES}{profiles_table()}{CLEAN}{clean_table()}"
+    points += f"{FEW}{measured_table()}{EXPORTED}{exported_table()}{ORGANIC}{organic_table()}"
     print("\n".join([*pictures.texts, points, *pictures.left_out]))
     if asked.page:
         write_page(pictures, points)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.howto_figures import boat
+from benchmarks.howto_figures import boat, plate
 from PIL import Image, ImageDraw, ImageFilter
 from tests.support.places import DATA, ROOT
 
@@ -47,6 +47,7 @@ def laid_out(folder: Path) -> Path:
     ImageDraw.Draw(circuit).line([(10, 48), (48, 48), (48, 12), (86, 12)], fill=0, width=4)
     circuit.save(folder / "circuit.png")
     (folder / "boat.svg").write_text(boat(), "utf-8")
+    plate(folder / "plate.dxf")
     (folder / "scans").mkdir()
     (folder / "scans" / "a.csv").write_bytes((folder / "scan.csv").read_bytes())
     with Image.open(folder / "leaf.png") as leaf:
