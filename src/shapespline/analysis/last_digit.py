@@ -37,6 +37,8 @@ def rounded(points: FloatArray, closed: bool, finest: float) -> float:
     0.0
     """
     points = points[_turning(points, closed)]
+    if len(points) < 2:
+        return 0.0
     offsets = points - points[0]
     between = np.diff(np.sort(offsets, axis=None))
     between = between[between > finest]
@@ -44,7 +46,7 @@ def rounded(points: FloatArray, closed: bool, finest: float) -> float:
     for rest in between[:: ceil(len(between) / MOST_DIFFERENCES) or 1].tolist():
         while rest > finest:
             step, rest = rest, abs(step - rest * round(step / rest)) if step < inf else 0.0
-    apart = median(np.hypot(*np.diff(points, axis=0).T)) if len(points) > 1 else 0.0
+    apart = median(np.hypot(*np.diff(points, axis=0).T))
     if step > max(COARSEST * float(np.ptp(points, axis=0).max()), COARSE * apart):
         return 0.0
     counts = offsets / step

@@ -52,3 +52,7 @@ def test_points_that_were_put_on_edges_do_not_count():
 def test_a_straight_row_tells_none():
     row = np.column_stack([0.01 * np.arange(1000), np.zeros(1000)])
     assert rounded(row, False, 1e-5) == 0.0
+
+
+def test_points_too_near_to_each_other_to_turn_tell_none():
+    assert rounded(1e-200 * ring(24, 30.0, 2), True, 1e-205) == 0.0
