@@ -11,7 +11,7 @@ from benchmarks.attack.options import drawn_options
 from benchmarks.attack.shapes import drawn
 
 import shapespline as ss
-from checks import hooks, speed_ratio
+from checks import hooks, polyline_of, self_crossings, speed_ratio
 from shapespline.engines.spline.fairness import MORE_TURN
 
 pytestmark = pytest.mark.filterwarnings("ignore::shapespline.DroppedPointsWarning")
@@ -104,3 +104,11 @@ def test_a_hook_that_stays_is_said(monkeypatch):
     fit = attacked(33830)[1]
     assert fit.kept
     assert fit.status.value.endswith("it turns back where the data do not")
+
+
+def test_a_sharp_tip_at_the_seam_is_not_crossed():
+    options, fit = attacked(1160723)
+    # The loop was a third of the tolerance long.
+    fine = polyline_of(fit.curve, 0.05 * options["tolerance"])
+    assert fit.kept
+    assert self_crossings(fine) == 0

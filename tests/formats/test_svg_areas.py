@@ -14,6 +14,7 @@ from PIL import Image
 
 import shapespline as ss
 from shapespline.errors import SkippedContentWarning
+from shapespline.formats.svg_areas import Areas
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'
 GROUND = '<rect width="100" height="100" fill="white"/>'
@@ -189,3 +190,18 @@ def test_the_written_picture_looks_the_same(tmp_path, body):
     ours = rendered((tmp_path / "again.svg").read_bytes())
     # Edges lie on pixels; those that rounding puts across one are fewer than one row.
     assert (ours != rendered(picture(body))).sum() < 100
+
+
+def test_an_outline_that_is_drawn_hundreds_of_times_takes_no_longer_than_others(monkeypatch):
+    """Where many coincide each was asked at its own places what all of them show there."""
+    asked = []
+    top = Areas.top
+
+    def counted(areas, within):
+        asked.append(len(within))
+        return top(areas, within)
+
+    monkeypatch.setattr(Areas, "top", counted)
+    count = 300
+    assert len(read("".join(square(20, fill=f"#{k:06x}") for k in range(count)))) == 1
+    assert sum(asked) < 200 * count

@@ -232,7 +232,7 @@ class Areas:
         found = {
             k
             for k, within in zip(filled, self.around_places(self._within(filled)), strict=True)
-            if self._shows(k, within, self.twins[k])
+            if self._shows(k, within, [self.top(around) for around in within], self.twins[k])
         }
         found |= {k for k in filled if self.is_white(k) and self._covers_strokes(k)}
         stroked = [k for k in sorted(self._unseen - found) if self._widest(k)]
@@ -246,31 +246,42 @@ class Areas:
     @cached_property
     def twins_seen(self) -> set[int]:
         """Areas that show in another colour than the one they coincide with, and holes that do."""
-        asked = [
-            j
+        asked = {
+            k: [
+                j
+                for j in self.twins[k]
+                if j != k and self.paths[j].paint.fill
+                if self.paths[j].paint.fill != self.paths[k].paint.fill or self._is_hole(j)
+            ]
             for k in self.outlines
-            for j in self.twins[k]
-            if j != k and self.paths[j].paint.fill
-            if self.paths[j].paint.fill != self.paths[k].paint.fill or self._is_hole(j)
-        ]
-        places = self.around_places(self._within(asked))
-        return {j for j, within in zip(asked, places, strict=True) if self._shows(j, within, [j])}
+        }
+        beside = [k for k, others in asked.items() if others]
+        places = self.around_places(self._within(beside))
+        return {
+            j
+            for k, within in zip(beside, places, strict=True)
+            for tops in [[self.top(around) for around in within]]
+            for j in asked[k]
+            if self._shows(j, within, tops, [j])
+        }
 
-    def _shows(self, k: int, within: list[list[int]], leaving: Sequence[int]) -> bool:
+    def _shows(
+        self, k: int, within: list[list[int]], tops: list[Top], leaving: Sequence[int]
+    ) -> bool:
         """Whether an outline shows in one of some places, told by the outlines around each.
 
         What is seen there is compared to what is without its element and without those to leave.
         """
         element = self.paths[k].element
         if self._is_hole(k):
-            tops = [self.top(around) for around in within]
             fill = None if self.is_white(k) else self.paths[k].paint.fill
             return any(top.element < element and self.color(top) != fill for top in tops)
-        for around in within:
+        for around, top in zip(within, tops, strict=True):
+            if top.element != element:
+                continue
             others = [j for j in around if j not in leaving]
             without = self.top([j for j in others if self.paths[j].element != element])
-            top = self.top(around)
-            if top.element == element and top.color != self.color(without):
+            if top.color != self.color(without):
                 return True
         return False
 

@@ -156,7 +156,10 @@ def line_of(curve: BSplineCurve, tolerance: float, corners: FloatArray) -> Float
         (corners[:, None] + sign * steps[at][:, None] * HALVINGS).ravel()
         for at, sign in ((before, -1), ((before + 1) % len(steps), 1))
     ]
-    more = np.sort(np.concatenate(beside))
+    more = np.concatenate(beside)
+    if (points[0] == points[-1]).all():  # beside the seam, too
+        more = np.where(more < parameters[0], more + parameters[-1] - parameters[0], more)
+    more = np.sort(more)
     more = more[(more > parameters[0]) & (more < parameters[-1])]
     is_new = parameters[np.searchsorted(parameters, more)] != more
     is_new[1:] &= more[1:] > more[:-1]

@@ -7,7 +7,13 @@ import pytest
 from tests.support.shapes import ribbon
 
 import shapespline as ss
-from shapespline.fitting.repair.assignment import DataRun, PieceAssignment, curve_of, located
+from shapespline.fitting.repair.assignment import (
+    DataRun,
+    PieceAssignment,
+    curve_of,
+    line_of,
+    located,
+)
 from shapespline.geometry.nearest import nearest
 from shapespline.values.piece import Piece
 
@@ -56,3 +62,15 @@ def test_a_segment_without_length_is_no_zero_over_zero():
     pieces = [Piece("line", 1, knots, nodes[i : i + 2]) for i in range(3)]
     parts = located(data, pieces, 0.1)
     assert [(part.begin, part.end) for part in parts] == [(0, 1), (1, 3), (3, 5)]
+
+
+def test_a_corner_at_the_seam_is_seen_closely_on_both_sides():
+    angle = np.linspace(0.5, 2 * np.pi - 0.5, 90)
+    drop = np.concatenate([[(30.0, 0.0)], 10 * np.column_stack([np.cos(angle), np.sin(angle)])])
+    fit = ss.fit_curve(drop, closed=True, tolerance=0.05)
+    assert 0.0 in fit.corners
+    line = line_of(fit.spline, fit.tolerance, fit.corners)
+    steps = np.hypot(*np.diff(line, axis=0).T)
+    finest = 1e-3 * np.median(steps)
+    assert steps[0] < finest
+    assert steps[-1] < finest
