@@ -52,11 +52,7 @@ def _plate(width: float, height: float, radius: float, round_at: tuple[bool, ...
         m = (k + 1) % 4
         begin = corner + radius * after * round_at[k]
         parts.append(Line(begin, corners[m] - radius * after * round_at[m]))
-    return tuple(part for part in parts if isinstance(part, Arc) or _length(part) > 0)
-
-
-def _length(line: Line) -> float:
-    return float(np.hypot(*(line.end - line.begin)))
+    return tuple(parts)
 
 
 def _slot(length: float, radius: float) -> Outline:
