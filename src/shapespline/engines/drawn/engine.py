@@ -103,7 +103,7 @@ def as_drawn(
         return None
     seen = Observed.of(contour, accuracy)
     ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
-    best = _circle(_rough(seen, tolerance) or seen.by_digits(), supposed=seen.rounding)
+    best = _circle(_rough(seen, tolerance) or seen)
     if best is None:
         best = _first_told(_readings(seen, tolerance), ends, regularities, tolerance)
     if accuracy is not None:
@@ -146,10 +146,10 @@ def _simplest(
     return best if plain is None else plain
 
 
-def _circle(seen: Observed, *, supposed: float = 0.0, independent: bool = False) -> Drawn | None:
+def _circle(seen: Observed, *, independent: bool = False) -> Drawn | None:
     """A closed outline as a whole circle, if it is one."""
     arc = whole_circle(seen, independent=independent) if seen.closed else None
-    return None if arc is None else Drawn((arc,), (), True, n_unknowns=3, supposed=supposed)
+    return None if arc is None else Drawn((arc,), (), is_told=True, n_unknowns=3)
 
 
 def _first_told(

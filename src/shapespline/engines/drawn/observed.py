@@ -127,10 +127,6 @@ class Observed:
             rounding=rounding,
         )
 
-    def by_digits(self) -> Observed:
-        """The same no better known than to the last digit."""
-        return self.less_exact(self.rounding) if self.rounding > self.deviation else self
-
     def less_exact(self, deviation: float) -> Observed:
         """Measured points the same, supposed to have such errors."""
         return self._but(deviation=deviation, largest_deviation=deviation, exact=False)

@@ -14,6 +14,7 @@ from benchmarks.drawn.few_points import (
     organic,
     shaken,
 )
+from benchmarks.quality import own_corpus
 
 import shapespline as ss
 from shapespline.engines.drawn.engine import as_drawn
@@ -86,11 +87,28 @@ def test_open_rows_of_few_points_are_lines_and_arcs(count, noise):
             assert kinds(fit) == [kind]
 
 
-def test_a_nearly_round_ellipse_is_no_circle():
-    # Out of round by two thousandths of its radius: what is left goes on from point to point.
-    angle = 2 * np.pi * np.arange(48) / 48
-    points = np.column_stack([30 * np.cos(angle), 29.88 * np.sin(angle)])
-    assert "arc" not in kinds(fitted(points, None))
+@pytest.mark.parametrize(("count", "narrower"), [(20, 0.99), (24, 0.993), (24, 0.996), (48, 0.996)])
+def test_a_nearly_round_ellipse_is_no_circle(count, narrower):
+    # What a circle leaves goes on from point to point.
+    angle = 2 * np.pi * np.arange(count) / count
+    points = np.column_stack([30 * np.cos(angle), 30 * narrower * np.sin(angle)])
+    found = as_drawn(ss.Contour(points, closed=True))
+    assert found is None or not found.is_told
+
+
+@pytest.mark.parametrize("count", [16, 24])
+def test_a_leaf_repeats_nothing(count):
+    # Three or four arcs are as near to so few points as cubics are, but leave too many numbers.
+    (leaf,) = (one.contour for one in own_corpus() if one.name == "leaf840_closed")
+    found = as_drawn(leaf.resampled(count))
+    assert found is None or not found.is_told
+
+
+@pytest.mark.parametrize("draw", range(6))
+def test_the_nodes_of_few_clean_points_are_where_they_were(draw):
+    # One point off, an arc of six points has one of an edge.
+    points = measured(SHAPES["slot"], 24, 0.0, np.random.default_rng(draw))
+    assert is_right(points, SHAPES["slot"], None)
 
 
 def test_points_that_tell_their_noise_are_not_supposed_to_have_more():
