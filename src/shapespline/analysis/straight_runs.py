@@ -49,12 +49,7 @@ def filled(contour: Contour) -> Contour:
     parts = np.where(steps > LONG_EDGE * median(steps), 2 * FEWEST_STRAIGHT, 1)
     if (parts == 1).all():
         return contour
-    begins = np.repeat(np.arange(len(steps)), parts)
-    share = np.concatenate([np.arange(count) / count for count in parts.tolist()])
-    along = np.diff(polyline, axis=0)[begins]
-    points = polyline[begins] + share[:, None] * along
-    if not contour.closed:
-        points = np.concatenate([points, polyline[-1:]])
+    points = _cut(polyline, parts, contour.closed)
     return Contour.trusted(points, contour.closed, contour.accuracy)
 
 
@@ -75,22 +70,21 @@ def with_points_on_lines(points: FloatArray, closed: bool) -> FloatArray:
     long = steps > LONGER * median(steps)
     if not long.any():
         return points
-    before, after = np.roll(along, 1, axis=0), along
-    turns = np.abs(
-        np.arctan2(
-            before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1)
-        )
-    )
-    sharp = turns > CORNER
+    (ax, ay), (bx, by) = np.roll(along, 1, axis=0).T, along.T
+    sharp = np.abs(np.arctan2(ax * by - ay * bx, ax * bx + ay * by)) > CORNER
     if not closed:
         sharp[0] = True
     at_begin = sharp | (LONGER * np.roll(steps, 1) < steps)
     at_end = np.roll(sharp, -1) | (LONGER * np.roll(steps, -1) < steps)
-    parts = np.where(long & at_begin & at_end, PARTS, 1)
-    begins = np.repeat(np.arange(len(steps)), parts)
+    return _cut(polyline, np.where(long & at_begin & at_end, PARTS, 1), closed)
+
+
+def _cut(polyline: FloatArray, parts: IntArray, closed: bool) -> FloatArray:
+    """The points of a polyline with each of its edges in so many equal parts."""
+    begins = np.repeat(np.arange(len(parts)), parts)
     share = np.concatenate([np.arange(count) / count for count in parts.tolist()])
-    found = polyline[begins] + share[:, None] * along[begins]
-    return found if closed else np.concatenate([found, polyline[-1:]])
+    points = polyline[begins] + share[:, None] * np.diff(polyline, axis=0)[begins]
+    return points if closed else np.concatenate([points, polyline[-1:]])
 
 
 def has_straight_runs(contour: Contour, tolerance: float) -> bool:

@@ -118,7 +118,7 @@ def as_drawn(
 
 def _simplest(
     best: Drawn | None,
-    suppositions: Iterable[Supposition],
+    larger: Iterable[Supposition],
     read: Callable[[Supposition], Drawn | None],
     fewest: int,
 ) -> Drawn | None:
@@ -129,7 +129,7 @@ def _simplest(
     """
     told = best is not None and best.is_told
     plain = best if best is not None and told and not best.has_runs else None
-    for one in suppositions:
+    for one in larger:
         if (plain is not None and plain.size <= fewest) or (told and not one.nearly_exact):
             break
         other = read(one)
