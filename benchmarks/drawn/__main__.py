@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 
+from benchmarks.drawn import random_plates
 from benchmarks.drawn.few_points import exported_table, measured_table, organic_table
 from benchmarks.drawn.limits import limits_table
 from benchmarks.drawn.page import write_page
@@ -31,6 +32,16 @@ truth over that of the fewest points, root mean squares.
 CLEAN = """
 The same without noise, corners between the points: how many of ten have the profile's own edges
 and curves and no bits beside, without a tolerance and within some, parts of the box diagonal.
+
+"""
+
+RANDOM = """
+Plates of random forms, level or turned (`python -m benchmarks.drawn.random_plates`): right angles
+and fillets of one or two radii, some corners sharp, or no two directions and no two radii alike.
+How many fits of exact points have the lines and arcs that were drawn and nothing else, without a
+tolerance and within some; then those of noisy points, and the distance from the plate to them in
+deviations of a point, geometric mean. Within a tolerance sharp corners between the points are out
+of reach where their chord is farther off.
 
 """
 
@@ -61,6 +72,7 @@ def main() -> None:
     asked = parser.parse_args()
     pictures, points = pictures_tables(), f"{sampled_table()}\n{recovered_table()}\n{LIMITS}"
     points += f"{limits_table()}{PROFILES}{profiles_table()}{CLEAN}{clean_table()}"
+    points += f"{RANDOM}{random_plates.clean_table()}\n{random_plates.noisy_table()}"
     points += f"{FEW}{measured_table()}{EXPORTED}{exported_table()}{ORGANIC}{organic_table()}"
     print("\n".join([*pictures.texts, points, *pictures.left_out]))
     if asked.page:

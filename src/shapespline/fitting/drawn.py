@@ -100,8 +100,10 @@ class DrawnPieces:
             mirrored = len(found.parts) == 1 or any(o.name == "mirror" for o in found.regularities)
             if symmetric and not mirrored and MirroredHalf.of(problem.thinned):
                 return
-            if not (noisy and found.has_runs):  # what chains of elements left is no run by itself
-                yield found
+            for one in (found, found.otherwise):
+                # What chains of elements left is no run by itself.
+                if one is not None and not (noisy and one.has_runs):
+                    yield one
         if noisy and not (of_picture or symmetric):
             yield from problem.between_corners
 

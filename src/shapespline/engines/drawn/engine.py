@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +18,7 @@ from shapespline.engines.drawn.judgement import (
     is_enough,
     is_plain,
     is_short,
+    share,
     tell_by_direction,
     without_few,
 )
@@ -35,7 +37,7 @@ from shapespline.engines.drawn.segments import (
     supported,
 )
 from shapespline.engines.drawn.sharing import shared_anew
-from shapespline.engines.drawn.supposed import suppositions
+from shapespline.engines.drawn.supposed import NEARLY, suppositions
 from shapespline.engines.drawn.whole_circle import ROUND, whole_circle
 
 if TYPE_CHECKING:
@@ -64,6 +66,8 @@ CHORDS = 1.33
 MOST_FREE = 0.35
 # Stored points of a line and of a circle, than which nothing open or closed is simpler.
 SIMPLEST_OPEN, SIMPLEST_CLOSED = 1, 2
+# Part of exact points that lines and arcs make up where the rest may be such (DRA-49).
+MOST_EXACT = 0.8
 # Rows with more segments are found at that part of their price (DRA-38).
 FINER = 0.5
 
@@ -163,9 +167,15 @@ def _first_told(
         best = _of_row(one, row, ends, tolerance, whole=as_whole)
         if best is None:
             continue
-        if np.isinf(tolerance) and not one.pixel:
-            best = _cheapest(best, row)
-        return _finished(best, regularities, tolerance)
+        is_small = len(best.model.row.found) <= MANY_ELEMENTS  # others take very long
+        if one.pixel or np.isfinite(tolerance) or not is_small:
+            return _finished(best, regularities, tolerance)
+        best = _cheapest(best, row)
+        drawn = _finished(best, regularities, tolerance)
+        wider = best if one.exact else _descended(best, wide=True)
+        if wider is best:
+            return drawn
+        return replace(_finished(wider, regularities, tolerance), otherwise=drawn)
     return None
 
 
@@ -227,7 +237,7 @@ def _finished(best: Estimated, regularities: Collection[str], tolerance: float) 
     model, found = best.model, best.found
     if set(regularities) != set(NAMES):
         model = Model.of(model.seen, model.row, model, model.ends)
-        found = Search(model, regularities).run()
+        found = Search(model, regularities, best.wide).run()
     return assembled(shared_anew(model), found, tolerance, best.told)
 
 
@@ -290,11 +300,17 @@ def _cheapest(best: Estimated, row: Segments) -> Estimated:
     if (finer.first, finer.found) != (row.first, row.found):
         other = _of_row(seen, finer, best.model.ends, np.inf, whole=False)
         best = best if other is None else min(best, other, key=lambda one: one.whole_cost)
+    return _descended(best)
+
+
+def _descended(best: Estimated, *, wide: bool = False) -> Estimated:
+    """The cheapest reading that is found step by step; ``wide`` with all that noise allows."""
     while True:
+        rows = rows_nearby(best.model)
         others = [best]
-        for near in rows_nearby(best.model):
-            other = estimated(best.model, near, np.inf)
-            if other is None or other.model.row is not near:
+        for row in chain([best.model.row], rows) if wide > best.wide else rows:
+            other = estimated(best.model, row, np.inf, wide=wide)
+            if other is None or other.model.row is not row:
                 continue
             if other.told or is_short(other.model):
                 others.append(settled(other, np.inf))
@@ -324,6 +340,7 @@ def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segm
     """
     row, rough = segmented(seen), _rough(seen, tolerance)
     if rough is None:
+        yield from _nearly_exact(seen, row)
         yield seen, row, False
         return
     again = segmented(rough, row) if row.n_parameters(LONG * seen.pixel) >= LEAST_SAVED else row
@@ -340,6 +357,22 @@ def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segm
     yield rough, again, False
     slow = rough.slow()
     yield slow, segmented(slow, row), False
+
+
+def _nearly_exact(seen: Observed, row: Segments) -> Iterator[tuple[Observed, Segments, bool]]:
+    """Exact points that are nearly so, if all of them then are lines and arcs.
+
+    Few points of an arc, some of which lie beside a node, may be told by nothing else. Lines and
+    arcs that no exact point contradicts come first.
+    """
+    if not seen.exact or share(row) < MOST_EXACT:
+        return
+    if share(row) == 1.0:
+        yield seen, row, True
+    nearly = seen.less_exact(NEARLY * seen.deviation, exact=True)
+    again = segmented(nearly)
+    if share(again) == 1.0:
+        yield nearly, again, True
 
 
 def _is_shorter(again: Segments, row: Segments, pixel: float) -> bool:

@@ -10,11 +10,10 @@ from shapespline.engines.drawn.ends import NEIGHBOURS, nodes_of, on_between
 from shapespline.engines.drawn.joints import turn_at
 from shapespline.engines.drawn.judgement import (
     HOPELESS,
-    LEAST_SAID,
     is_enough,
     is_short,
+    is_told,
     misfitting,
-    repeated,
 )
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.regularities import NAMES, Search
@@ -48,11 +47,15 @@ ELEMENT = 0.5
 
 
 class Estimated(NamedTuple):
-    """Elements with the regularities that they keep, and whether these tell of a drawing."""
+    """Elements with the regularities that they keep, and whether these tell of a drawing.
+
+    ``wide`` if all that noise allows was taken.
+    """
 
     model: Model
     found: list[Regularity]
     told: bool
+    wide: bool
 
     @property
     def cost(self) -> float:
@@ -74,8 +77,13 @@ class Estimated(NamedTuple):
         return self.cost + 0.5 * free_chi_sq + price
 
 
-def estimated(model: Model, row: Segments, tolerance: float) -> Estimated | None:
-    """The elements of segments under their regularities, those that fit badly left out."""
+def estimated(
+    model: Model, row: Segments, tolerance: float, *, wide: bool = False
+) -> Estimated | None:
+    """The elements of segments under their regularities, those that fit badly left out.
+
+    ``wide`` takes what noise allows, not only what is nearly met (DRA-48).
+    """
     seen, ends, n_wrong = model.seen, model.ends, 0
     while n_wrong < min(len(row.found), MOST_WRONG):
         model = Model.of(seen, row, model, ends)
@@ -83,11 +91,11 @@ def estimated(model: Model, row: Segments, tolerance: float) -> Estimated | None
             return None
         bad = misfitting(model, tolerance, each_alone=True)  # which is soon done
         if not bad:
-            found = Search(model, NAMES).run()
+            found = Search(model, NAMES, wide).run()
             bad = misfitting(model, tolerance)
-            told = repeated(model, found) >= LEAST_SAID * (1.0 if not bad else HOPELESS)
+            told = is_told(model, found, tolerance, HOPELESS if bad else 1.0)
             if not bad:
-                return Estimated(model, found, told)
+                return Estimated(model, found, told, wide)
             if not told and not is_short(model):
                 return None
         row, n_wrong = supported(_without(model, bad, tolerance), seen.closed), n_wrong + len(bad)
@@ -103,7 +111,7 @@ def settled(best: Estimated, tolerance: float) -> Estimated:
     row = shared_anew(best.model).row
     if row is best.model.row:
         return best
-    other = estimated(best.model, row, tolerance)
+    other = estimated(best.model, row, tolerance, wide=best.wide)
     if other is None or other.model.row is not row or other.cost >= best.cost:
         return best
     return other
@@ -114,7 +122,7 @@ def begun(best: Estimated, tolerance: float) -> Estimated:
     row = without_beginnings(best.model.row, best.model.seen)
     if row is best.model.row:
         return best
-    other = estimated(best.model, row, tolerance)
+    other = estimated(best.model, row, tolerance, wide=best.wide)
     if other is None or other.model.row is not row:
         return best
     return settled(other, tolerance)._replace(told=best.told)

@@ -17,6 +17,7 @@ from shapespline.engines.drawn.ends import (
     off_by,
 )
 from shapespline.engines.drawn.joints import direction_at, turn_at
+from shapespline.engines.drawn.regularities import DIRECTIONS, OF_PICTURES, RADII, TANGENT_TURN
 from shapespline.engines.drawn.segments import ARC, CORNER, FREE, LINE, is_corner
 
 if TYPE_CHECKING:
@@ -41,8 +42,9 @@ PLAIN = 900.0
 # Of exact points a line from corner to corner with so many steps is one (DRA-45).
 PLAIN_POINTS = 20
 # That a line's direction is another's, or level, says something if it is known to so many radians
-# (DRA-42).
+# (DRA-42). What else is told in degrees.
 DIRECTED = ("axis-parallel", "parallel", "perpendicular", "collinear")
+TURNED = ("tangent", "axis-parallel", "parallel", "perpendicular")
 KNOWN_DIRECTION = float(np.radians(0.7))
 # So few elements and nothing else may be what was drawn though they keep no regularities (DRA-17).
 FEW_ELEMENTS = 12
@@ -50,6 +52,8 @@ FEW_ELEMENTS = 12
 LEAST_LENGTH = 0.3
 # Measured points so few, and no farther from the elements beside them, in deviations (DRA-15).
 FEW, OFF_FEW = 8, 3.5
+# No curve is lines and arcs to the fifth digit, if each of them has so many points (DRA-49).
+POINTS_EACH = 12
 # Before elements that their points contradict are left out so small a part of it is enough.
 HOPELESS = 0.7
 # An arc that meets a neighbour at such an angle, radians, and cannot touch it is the beginning of a
@@ -204,10 +208,10 @@ def without_few(model: Model) -> Segments | None:
 
 def is_enough(row: Segments) -> bool:
     """Whether lines and arcs make up enough of an outline to be what was drawn."""
-    return any(kind != FREE for _, _, kind in row.found) and _share(row) >= LEAST_SHARE
+    return any(kind != FREE for _, _, kind in row.found) and share(row) >= LEAST_SHARE
 
 
-def _share(row: Segments) -> float:
+def share(row: Segments) -> float:
     """The part of an outline's length that lines and arcs make up."""
     s = row.stations
     return sum(float(s[j] - s[i]) for i, j, kind in row.found if kind != FREE) / float(s[-1])
@@ -218,6 +222,18 @@ def is_short(model: Model) -> bool:
     return len(model.at) == len(model.row.found) <= FEW_ELEMENTS
 
 
+def is_told(model: Model, found: list[Regularity], tolerance: float, part: float = 1.0) -> bool:
+    """Whether what elements repeat tells of a drawing, or all of them follow many exact points.
+
+    Lines alone within a tolerance are what curves of fewer points are compared with.
+    """
+    row, n = model.row, len(model.row.found)
+    exactly = model.seen.exact and len(model.at) == n <= len(row.points) / POINTS_EACH
+    if exactly and (np.isinf(tolerance) or any(kind == ARC for _, _, kind in row.found)):
+        return True
+    return repeated(model, found) >= part * LEAST_SAID
+
+
 def repeated(model: Model, found: list[Regularity]) -> float:
     """How much a drawing repeats, for each element.
 
@@ -226,10 +242,12 @@ def repeated(model: Model, found: list[Regularity]) -> float:
     """
     n, said = len(model.at), 0.0
     speak: set[int] = set()
-    by_touch = SAID_BY_TOUCH if _share(model.row) >= 1.0 - LITTLE_FREE else 0.0
+    by_touch = SAID_BY_TOUCH if share(model.row) >= 1.0 - LITTLE_FREE else 0.0
     if len(model.row.found) == 1:  # one arc from end to end, as a whole circle
         return 1.0
     for one in found:
+        if not _speaks(model, one):
+            continue
         if one.name in ("rotation", "mirror"):
             said += n * (1.0 - 1.0 / one.order)
         elif one.name != "equal-length":
@@ -237,6 +255,15 @@ def repeated(model: Model, found: list[Regularity]) -> float:
             if one.name != "tangent":
                 speak.update(one.pieces)
     return (said + len(_plain_lines(model) - speak)) / n
+
+
+def _speaks(model: Model, one: Regularity) -> bool:
+    """Whether a regularity is met so nearly that it tells of a drawing: few points may be level."""
+    if one.name == "equal-radius":
+        return abs(one.off) < RADII * float(model.x[model.at[one.pieces[0]] + 2])
+    directions = OF_PICTURES if model.seen.pixel else DIRECTIONS
+    most = TANGENT_TURN if one.name == "tangent" else directions
+    return one.name not in TURNED or abs(one.off) < np.degrees(most)
 
 
 def is_plain(model: Model) -> bool:

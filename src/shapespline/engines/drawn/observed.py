@@ -127,9 +127,9 @@ class Observed:
             rounding=rounding,
         )
 
-    def less_exact(self, deviation: float) -> Observed:
-        """Measured points the same, supposed to have such errors."""
-        return self._but(deviation=deviation, largest_deviation=deviation, exact=False)
+    def less_exact(self, deviation: float, *, exact: bool = False) -> Observed:
+        """Measured points the same, supposed to have such errors; as good as exact or not."""
+        return self._but(deviation=deviation, largest_deviation=deviation, exact=exact)
 
     def rougher(self, factor: float) -> Observed:
         """The same of a picture so many times less exact than its kind is."""

@@ -47,7 +47,8 @@ class Drawn:
 
     ``is_told`` if these are enough to tell that it was drawn so; ``n_unknowns`` numbers of lines
     and arcs are what they leave free; ``supposed`` is the standard deviation that these tell of
-    points whose neighbours tell none, 0 of others.
+    points whose neighbours tell none, 0 of others. ``otherwise`` is what noisy points tell with
+    only those regularities that they nearly meet, where that is something else.
     """
 
     parts: tuple[Part, ...]
@@ -55,6 +56,7 @@ class Drawn:
     is_told: bool
     n_unknowns: int
     supposed: float = 0.0
+    otherwise: Drawn | None = None
 
     @property
     def has_runs(self) -> bool:

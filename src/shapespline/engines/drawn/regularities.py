@@ -21,7 +21,7 @@ from shapespline.engines.drawn.symmetry import symmetries
 from shapespline.values import Regularity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterator
+    from collections.abc import Callable, Collection, Iterator, Sequence
 
     from shapespline._kernels import Equation
     from shapespline.engines.drawn.model import Misfit, Model
@@ -46,8 +46,11 @@ NAMES = (
 LARGEST, LARGEST_TANGENT, LEAST_SURPRISE = 9.0, 16.0, 1.0
 # Of the square of an error that one equation may have each of several may have this part (DRA-04).
 EACH_OF_SEVERAL = 0.75
-# Joints that turn by less may be tangent; directions, radians, and radii, parts, that may agree.
+# Joints that turn by less, radians, may be tangent; directions, radians, and radii, parts, that may
+# agree. Edges of small letters in a picture lean by more, and a few noisy points by as much as
+# their error allows (DRA-48).
 TANGENT_TURN, DIRECTIONS, RADII = 0.35, 0.03, 0.25
+OF_PICTURES, HARDLY_TANGENT = 0.05, 1.0
 # Deviations by which lengths that agree may differ: what flat corners tell is no witness
 # (DRA-21).
 LENGTHS = 3.0
@@ -66,6 +69,7 @@ class Search:
 
     model: Model
     allowed: Collection[str]
+    wide: bool = False  # whether what is hardly known may be off by as much as its error
     covariance: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
     found: list[Regularity] = field(default_factory=list)
     _known_at: FloatArray | None = None  # the estimate whose covariance it is
@@ -151,33 +155,41 @@ class Search:
                 continue
             near = model.row.points[model.row.found[k].end]
             turn = turn_at(model, k, m, meeting(model, k, m, near))
-            if turn < TANGENT_TURN and self.takes(equation, None, LARGEST_TANGENT):
+            most = HARDLY_TANGENT if self.wide else TANGENT_TURN
+            if turn < most and self.takes(equation, None, LARGEST_TANGENT):
                 yield Regularity("tangent", (k, m), float(np.degrees(turn)))
 
     def _directions(self) -> Iterator[Regularity]:
-        model, quarter = self.model, pi / 2
+        near = OF_PICTURES if self.model.seen.pixel else DIRECTIONS
         heads: list[int] = []
         for k in self._best_known(LINE, 0):
-            o, own = model.at[k], model.unknowns(k)[0]
-            turn = round(own / quarter) * quarter
-            off = own - turn
-            level = "axis-parallel" in self.allowed and abs(off) < DIRECTIONS
-            if level and self.takes(_kernels.Difference((o,), (), turn), quarter):
-                heads.insert(0, k)
-                yield Regularity("axis-parallel", (k,), float(np.degrees(off)))
+            found = self._direction(k, heads, near)
+            if found is None and self.wide:
+                found = self._direction(k, heads, pi / 4)
+            if found is not None:
+                yield found
+            if found is None or found.name == "axis-parallel":
+                heads.insert(len(heads) if found is None else 0, k)
+
+    def _direction(self, k: int, heads: Sequence[int], most: float) -> Regularity | None:
+        """What the direction of a line agrees with up to an angle: an axis or that of a head."""
+        model, quarter = self.model, pi / 2
+        o, own = model.at[k], model.unknowns(k)[0]
+        turn = round(own / quarter) * quarter
+        off = own - turn
+        level = "axis-parallel" in self.allowed and abs(off) < most
+        if level and self.takes(_kernels.Difference((o,), (), turn), quarter):
+            return Regularity("axis-parallel", (k,), float(np.degrees(off)))
+        for head in heads:
+            p, other = model.at[head], model.unknowns(head)[0]
+            turns = round((own - other) / quarter)
+            name = "perpendicular" if turns % 2 else "parallel"
+            off = own - other - turns * quarter
+            if name not in self.allowed or abs(off) >= most:
                 continue
-            for head in heads:
-                p, other = model.at[head], model.unknowns(head)[0]
-                turns = round((own - other) / quarter)
-                name = "perpendicular" if turns % 2 else "parallel"
-                off = own - other - turns * quarter
-                if name not in self.allowed or abs(off) >= DIRECTIONS:
-                    continue
-                if self.takes(_kernels.Difference((o,), (p,), turns * quarter), quarter):
-                    yield Regularity(name, (head, k), float(np.degrees(off)))
-                    break
-            else:
-                heads.append(k)
+            if self.takes(_kernels.Difference((o,), (p,), turns * quarter), quarter):
+                return Regularity(name, (head, k), float(np.degrees(off)))
+        return None
 
     def _centres(self) -> Iterator[Regularity]:
         model = self.model
@@ -203,7 +215,7 @@ class Search:
             for head in heads:
                 p = model.at[head] + 2
                 off = float(model.x[o] - model.x[p])
-                if abs(off) > RADII * model.x[p]:
+                if not self.wide and abs(off) > RADII * model.x[p]:
                     continue
                 if self.takes(_kernels.Difference((o,), (p,)), 0.5 * model.extent):
                     yield Regularity("equal-radius", (head, k), off)

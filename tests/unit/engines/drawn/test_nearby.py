@@ -18,7 +18,7 @@ def drawn_from(name: str, noise: float, n: int, seed: int) -> Drawn:
     return found
 
 
-@pytest.mark.parametrize("seed", [0, 1, 3, 6])
+@pytest.mark.parametrize("seed", [1, 3, 4, 5, 6, 7])
 def test_a_bracket_in_much_noise_has_all_its_fillets(seed):
     # Noise of 1.9 in fillets of radius 12.9: four of one radius and a larger one, six edges. Alone
     # each was a chamfer, a corner or, with an edge of 21 between two, a chain of arcs (seed 6).
