@@ -172,7 +172,7 @@ def _first_told(
             return _finished(best, regularities, tolerance)
         best = _cheapest(best, row)
         drawn = _finished(best, regularities, tolerance)
-        wider = best if one.exact else _descended(best, wide=True)
+        wider = _descended(best, wide=True) if best.told and not one.exact else best
         if wider is best:
             return drawn
         return replace(_finished(wider, regularities, tolerance), otherwise=drawn)
@@ -312,7 +312,8 @@ def _descended(best: Estimated, *, wide: bool = False) -> Estimated:
             other = estimated(best.model, row, np.inf, wide=wide)
             if other is None or other.model.row is not row:
                 continue
-            if other.told or is_short(other.model):
+            # Without what speaks for it all that noise allows would make anything cheap.
+            if other.told or (is_short(other.model) and not wide):
                 others.append(settled(other, np.inf))
         if (cheapest := min(others, key=lambda one: one.whole_cost)) is best:
             return best
