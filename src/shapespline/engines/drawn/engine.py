@@ -15,6 +15,7 @@ from shapespline.engines.drawn.ends import at_corners
 from shapespline.engines.drawn.estimated import MOST_WRONG, Estimated, begun, estimated, settled
 from shapespline.engines.drawn.fillets import rows_with_fillets
 from shapespline.engines.drawn.judgement import (
+    has_blunt_arcs,
     is_enough,
     is_plain,
     is_short,
@@ -165,7 +166,7 @@ def _first_told(
     """The first reading that holds."""
     for one, row, as_whole in readings:
         best = _of_row(one, row, ends, tolerance, whole=as_whole)
-        if best is None:
+        if best is None or (as_whole and one.exact and has_blunt_arcs(best.model)):
             continue
         is_small = len(best.model.row.found) <= MANY_ELEMENTS  # others take very long
         if one.pixel or np.isfinite(tolerance) or not is_small:

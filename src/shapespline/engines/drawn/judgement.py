@@ -59,6 +59,8 @@ HOPELESS = 0.7
 # An arc that meets a neighbour at such an angle, radians, and cannot touch it is the beginning of a
 # free-form curve: nobody draws so blunt a corner (DRA-26).
 BLUNT = np.radians(1.0), np.radians(4.0)
+# Nor does one that is told less exactly than its points are turn by less at its ends (DRA-49).
+BLUNTEST = np.radians(10.0)
 # An arc misses the node that it ends in, and is then led through it, by no more than that part of a
 # tolerance, without one of a pixel (DRA-40).
 GAP, GAP_OF_PIXEL = 0.25, 0.01
@@ -232,6 +234,18 @@ def is_told(model: Model, found: list[Regularity], tolerance: float, part: float
     if exactly and (np.isinf(tolerance) or any(kind == ARC for _, _, kind in row.found)):
         return True
     return repeated(model, found) >= part * LEAST_SAID
+
+
+def has_blunt_arcs(model: Model) -> bool:
+    """Whether an arc meets a neighbour neither smoothly nor in a corner: a curve follows it."""
+    nodes, n = nodes_of(model), len(model.row.found)
+    for k in range(n if model.seen.closed else n - 1):
+        m = (k + 1) % n
+        if k == m or ARC not in (model.row.found[k].kind, model.row.found[m].kind):
+            continue
+        if BLUNT[0] < turn_at(model, k, m, nodes[k]) < BLUNTEST:
+            return True
+    return False
 
 
 def repeated(model: Model, found: list[Regularity]) -> float:
