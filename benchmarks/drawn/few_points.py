@@ -112,12 +112,17 @@ def _shown(outline: Outline, chords: int) -> bool:
 
 def is_right(points: Array, outline: Outline, tolerance: float | None) -> bool:
     """Whether the fit has the lines and arcs that were drawn and nothing else."""
-    fit = fitted(points, tolerance)
+    return is_outline(fitted(points, tolerance), outline)
+
+
+def is_outline(fit: ss.Fit, outline: Outline) -> bool:
+    """Whether a fit has the lines and arcs of an outline and nothing else."""
     own = sorted(type(one).__name__.lower() for one in outline)
     return sorted(piece.kind for piece in fit.pieces) == own
 
 
 def fitted(points: Array, tolerance: float | None) -> ss.Fit:
+    """The fit of a closed outline, within a part of its box diagonal."""
     contour = ss.Contour.silently(points, closed=True)
     asked = None if tolerance is None else tolerance * contour.box_diagonal
     return ss.fit_curve(contour, tolerance=asked)
@@ -126,7 +131,7 @@ def fitted(points: Array, tolerance: float | None) -> ss.Fit:
 def measured_table(draws: int = 10) -> str:
     """Right fits of measured points."""
     cells = [(tolerance, noise) for tolerance in TOLERANCES for noise in NOISES]
-    heads = [f"{_said(tolerance)}, {100 * noise:g} % noise" for tolerance, noise in cells]
+    heads = [f"{said(tolerance)}, {100 * noise:g} % noise" for tolerance, noise in cells]
     lines = [f"Right of {draws * len(COUNTS)} | " + " | ".join(heads)]
     lines.append("|".join(["---"] * (1 + len(cells))))
     for name, outline in SHAPES.items():
@@ -146,7 +151,7 @@ def exported_table() -> str:
     """Right fits of vertices of all plates and icons, by their chords, digits and the tolerance."""
     cells = [(tolerance, digits) for tolerance in TOLERANCES for digits in DIGITS]
     heads = [
-        f"{_said(tolerance)}, {'all' if digits is None else digits} digits"
+        f"{said(tolerance)}, {'all' if digits is None else digits} digits"
         for tolerance, digits in cells
     ]
     lines = ["Right, chords of a quarter | outlines | " + " | ".join(heads)]
@@ -165,7 +170,7 @@ def exported_table() -> str:
 def organic_table(draws: int = 10) -> str:
     """How often shapes without lines and arcs get arcs."""
     cells = [(tolerance, noise) for tolerance in TOLERANCES for noise in NOISES]
-    heads = [f"{_said(tolerance)}, {100 * noise:g} % noise" for tolerance, noise in cells]
+    heads = [f"{said(tolerance)}, {100 * noise:g} % noise" for tolerance, noise in cells]
     lines = [f"With arcs of {draws * len(COUNTS)} | " + " | ".join(heads)]
     lines.append("|".join(["---"] * (1 + len(cells))))
     for name, at in organic().items():
@@ -219,7 +224,8 @@ def _random(seed: int) -> np.random.Generator:
     return np.random.default_rng(seed)
 
 
-def _said(tolerance: float | None) -> str:
+def said(tolerance: float | None) -> str:
+    """A part of the box diagonal in words."""
     return "none" if tolerance is None else f"{100 * tolerance:g} %"
 
 

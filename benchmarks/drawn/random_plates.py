@@ -15,6 +15,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 import shapespline as ss
+from benchmarks.drawn.few_points import fitted, is_outline, is_right, said
 from benchmarks.drawn.found import Found
 from benchmarks.drawn.shapes import rounded
 from benchmarks.drawn.truth import sampled
@@ -76,16 +77,10 @@ def points_of(dense: Array, count: int, noise: float, random: np.random.Generato
     return points + random.normal(0, noise * _diagonal(dense), points.shape)
 
 
-def is_right(fit: ss.Fit, outline: Outline) -> bool:
-    """Whether a fit has the lines and arcs that were drawn and nothing else."""
-    own = sorted(type(one).__name__.lower() for one in outline)
-    return sorted(piece.kind for piece in fit.pieces) == own
-
-
 def clean_table() -> str:
     """Right fits of points without noise."""
     cells = [(tolerance, count) for tolerance in TOLERANCES for count in COUNTS]
-    heads = [f"{_said(tolerance)}, {count}" for tolerance, count in cells]
+    heads = [f"{said(tolerance)}, {count}" for tolerance, count in cells]
     lines = [f"Right of {DRAWS * len(FORMS)} | " + " | ".join(heads)]
     lines.append("|".join(["---"] * (1 + len(cells))))
     for regular in (True, False):
@@ -95,9 +90,7 @@ def clean_table() -> str:
             dense = sampled(outline, STEP)
             for tolerance, count in cells:
                 points = points_of(dense, count, 0.0, _random(form, draw))
-                asked = None if tolerance is None else tolerance * _diagonal(points)
-                fit = ss.fit_curve(points, closed=True, tolerance=asked)
-                right[tolerance, count] += is_right(fit, outline)
+                right[tolerance, count] += is_right(points, outline, tolerance)
         lines.append(f"{_kind(regular)} | " + " | ".join(map(str, right.values())))
     return "".join(f"| {line} |\n" for line in lines)
 
@@ -114,8 +107,8 @@ def noisy_table() -> str:
             for form, draw in _all():
                 outline = plate(form, draw, regular=regular)
                 dense = sampled(outline, STEP)
-                fit = ss.fit_curve(points_of(dense, count, noise, _random(form, draw)), closed=True)
-                right += is_right(fit, outline)
+                fit = fitted(points_of(dense, count, noise, _random(form, draw)), None)
+                right += is_outline(fit, outline)
                 away = cKDTree(Found.of_fits([fit]).curve).query(dense[::EVERY])[0]
                 off.append(float(np.sqrt((away**2).mean())) / (noise * _diagonal(dense)))
             cells.append(f"{right}, {np.exp(np.mean(np.log(off))):.2f}")
@@ -133,10 +126,6 @@ def _random(form: str, draw: int) -> np.random.Generator:
 
 def _diagonal(points: Array) -> float:
     return float(np.hypot(*np.ptp(points, axis=0)))
-
-
-def _said(tolerance: float | None) -> str:
-    return "none" if tolerance is None else f"{100 * tolerance:g} %"
 
 
 def _kind(regular: bool) -> str:

@@ -192,7 +192,9 @@ def _supposed(
             found = _first_told([(one.seen, row, False)], ends, regularities, tolerance)
     if found is None or not one.tells(found):
         return None
-    return replace(found, supposed=one.seen.deviation)
+    other, supposed = found.otherwise, one.seen.deviation
+    other = None if other is None else replace(other, supposed=supposed)
+    return replace(found, supposed=supposed, otherwise=other)
 
 
 def drawn_between_corners(

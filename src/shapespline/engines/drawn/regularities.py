@@ -166,10 +166,12 @@ class Search:
             found = self._direction(k, heads, near)
             if found is None and self.wide:
                 found = self._direction(k, heads, pi / 4)
-            if found is not None:
-                yield found
-            if found is None or found.name == "axis-parallel":
-                heads.insert(len(heads) if found is None else 0, k)
+            if found is None:
+                heads.append(k)
+                continue
+            yield found
+            if found.name == "axis-parallel":
+                heads.insert(0, k)
 
     def _direction(self, k: int, heads: Sequence[int], most: float) -> Regularity | None:
         """What the direction of a line agrees with up to an angle: an axis or that of a head."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from benchmarks.drawn import random_plates
 from benchmarks.drawn.random_plates import plate
 from benchmarks.drawn.truth import sampled
 from benchmarks.quality import own_corpus
@@ -15,7 +16,7 @@ from shapespline.engines.drawn import DrawnArc, DrawnLine, as_drawn
 def points_of(form: str, draw: int, n: int) -> np.ndarray:
     """Exact points of a plate with eight edges and fillets, no two alike."""
     dense = sampled(plate(form, draw, regular=False), 0.02)
-    return Contour(dense, closed=True).resampled(n).points
+    return random_plates.points_of(dense, n, 0.0, np.random.default_rng(0))
 
 
 def kinds(pieces) -> tuple[int, int, int]:
@@ -83,3 +84,12 @@ def test_arcs_that_meet_edges_at_some_degrees_are_no_exact_ones():
     for tolerance in (None, 0.001 * contour.box_diagonal):
         fit = fit_curve(contour, tolerance=tolerance)
         assert "arc" not in [piece.kind for piece in fit.pieces]
+
+
+def test_what_nearly_holds_is_a_second_reading():
+    # With all that noise allows, two nearly parallel edges meet too far from a point.
+    contour = next(one.contour for one in own_corpus() if one.name == "plane1100_closed")
+    points = contour.resampled(400).points
+    noise = np.random.default_rng(4).normal(0, 0.001 * contour.box_diagonal, points.shape)
+    fit = fit_curve(Contour(points + noise, closed=True))
+    assert [piece.kind for piece in fit.pieces] == ["line"] * 30
