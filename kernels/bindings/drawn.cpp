@@ -76,17 +76,19 @@ void bind_drawn(nb::module_ &m) {
     m.def(
         "drawn_pieces",
         [](In2 points, In1 stations, In1 weights, InIndices candidates, InIndices nodes,
-           const drawn::SegmentationSettings &settings) {
+           In2 directions, const drawn::SegmentationSettings &settings) {
             nb::gil_scoped_release release;
             drawn::Segmentation search(vectors(points), numbers(stations), numbers(weights),
-                                       indices(candidates), indices(nodes), settings);
+                                       indices(candidates), indices(nodes), vectors(directions),
+                                       settings);
             std::vector<std::tuple<std::int64_t, std::int64_t, int>> pieces;
             for (const drawn::DrawnPiece &piece : search.run())
                 pieces.emplace_back(piece.begin, piece.end, piece.kind);
             return std::pair{pieces, search.cost()};
         },
         "points"_a.noconvert(), "stations"_a.noconvert(), "weights"_a.noconvert(),
-        "candidates"_a.noconvert(), "nodes"_a.noconvert(), "settings"_a);
+        "candidates"_a.noconvert(), "nodes"_a.noconvert(), "directions"_a.noconvert(),
+        "settings"_a);
     m.def(
         "line_through",
         [](In2 points, In1 weights) {

@@ -24,13 +24,24 @@ std::vector<Vec2> arc(Vec2 centre, double radius, double from, double sweep, int
     return points;
 }
 
-std::vector<DrawnPiece> pieces_of(const std::vector<Vec2> &points, double deviation) {
+struct Told {
+    std::vector<DrawnPiece> pieces;
+    double cost;
+};
+
+Told told_by(const std::vector<Vec2> &points, double deviation,
+             const std::vector<Vec2> &directions = {}) {
     std::vector<double> stations{0.0}, weights(points.size(), 1.0);
     for (std::size_t i = 1; i < points.size(); ++i)
         stations.push_back(stations.back() + norm(points[i] - points[i - 1]));
     const double step = stations.back() / static_cast<double>(points.size() - 1);
     const SegmentationSettings settings{deviation, 0.0, 2.5 * step, 4.0, 4.0, 0.14, 4, kJoints};
-    return Segmentation(points, stations, weights, {}, {}, settings).run();
+    Segmentation search(points, stations, weights, {}, {}, directions, settings);
+    auto pieces = search.run();
+    return {std::move(pieces), search.cost()};
+}
+std::vector<DrawnPiece> pieces_of(const std::vector<Vec2> &points, double deviation) {
+    return told_by(points, deviation).pieces;
 }
 
 }  // namespace
@@ -106,6 +117,26 @@ TEST(a_line_an_arc_and_a_line_are_found_where_they_are) {
     CHECK(found.size() == 3);
     CHECK(found[0].kind == kLine && found[1].kind == kArc && found[2].kind == kLine);
     CHECK(std::abs(found[0].end - 30) <= 2 && std::abs(found[2].begin - 54) <= 2);
+}
+
+TEST(a_line_along_a_direction_that_is_told_takes_its_offset_alone) {
+    // Three edges at right angles, turned by 0.3, backwards along the last: prices are 4 each.
+    const Vec2 along{std::cos(0.3), std::sin(0.3)}, across{-along.y, along.x};
+    std::vector<Vec2> points;
+    for (int i = 0; i < 20; ++i) points.push_back(0.02 * i * along);
+    for (int i = 0; i < 20; ++i) points.push_back(0.4 * along + 0.02 * i * across);
+    for (int i = 0; i <= 20; ++i) points.push_back(0.4 * across + (0.4 - 0.02 * i) * along);
+    const Told free = told_by(points, 1e-3), told = told_by(points, 1e-3, {along, across});
+    CHECK(free.pieces.size() == 3 && told.pieces.size() == 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(told.pieces[k].kind == kLine);
+        CHECK(told.pieces[k].begin == free.pieces[k].begin);
+    }
+    // Misfits are none but for rounding over the squared deviation.
+    CHECK_NEAR(free.cost - told.cost, 12.0, 1e-6);
+    CHECK_NEAR(told_by(points, 1e-3, {along}).cost, told.cost + 4.0, 1e-6);
+    // A direction that none of them has is of no use.
+    CHECK_NEAR(told_by(points, 1e-3, {{1.0, 0.0}}).cost, free.cost, 1e-6);
 }
 
 TEST(waves_are_free_form) {

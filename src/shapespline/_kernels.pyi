@@ -361,6 +361,7 @@ def drawn_pieces(
     weights: FloatArray,  # (n,)
     candidates: IntArray,
     nodes: IntArray,  # empty: all points
+    directions: FloatArray,  # (n, 2) unit vectors: a line along one takes its offset alone
     settings: SegmentationSettings,
 ) -> tuple[list[tuple[int, int, int]], float]: ...  # begin, end, kind of each; the cost
 def line_through(

@@ -31,7 +31,13 @@ inline double off_line(const Scatter &m) {
     return m.weight * std::max(0.5 * (m.xx + m.yy) - half_apart(m), 0.0);
 }
 
-// The direction of that line: of the larger eigenvalue, from the row with the larger entries.
+// The same from the best line of a direction, a unit vector.
+inline double off_line_along(const Scatter &m, Vec2 along) {
+    const auto [x, y] = along;
+    return m.weight * std::max(y * y * m.xx - 2.0 * x * y * m.xy + x * x * m.yy, 0.0);
+}
+
+// The direction of the best line: of the larger eigenvalue, from the row with the larger entries.
 inline Vec2 along_line(const Scatter &m) {
     const double apart = 0.5 * (m.xx - m.yy), root = half_apart(m);
     const Vec2 along = apart >= 0.0 ? Vec2{apart + root, m.xy} : Vec2{m.xy, root - apart};

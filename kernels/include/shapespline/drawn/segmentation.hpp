@@ -26,13 +26,14 @@ struct DrawnPiece {
 class Segmentation {
   public:
     // A row of points, their arc lengths and weights; `candidates` are further nodes of free-form
-    // runs, `nodes` the points that may be nodes at all, every one if there are none.
+    // runs, `nodes` the points that may be nodes at all, every one if there are none; `directions`
+    // are unit vectors along which a line takes one parameter, its offset, instead of two.
     Segmentation(std::span<const Vec2> points, std::span<const double> stations,
                  std::span<const double> weights, std::span<const std::int64_t> candidates,
-                 std::span<const std::int64_t> nodes,
+                 std::span<const std::int64_t> nodes, std::span<const Vec2> directions,
                  const SegmentationSettings &settings)
-        : points_(points), s_(stations), weights_(weights), settings_(settings),
-          moments_(points, weights), n_(points.size()), states_(n_) {
+        : points_(points), directions_(directions), s_(stations), weights_(weights),
+          settings_(settings), moments_(points, weights), n_(points.size()), states_(n_) {
         half_precision_ = 0.5 / (settings.deviation * settings.deviation);
         dearest_joint_ = settings.price * settings.joints.dearest();
         // A stretch whose misfit is beyond noise by so much is given up.
@@ -173,7 +174,8 @@ class Segmentation {
         if (length < settings_.shortest) return;
         const bool is_long = length >= kLong * settings_.skip;
         const bool may_be_last = length > 3.0 * settings_.shortest;
-        const bool may_gain = from.least + from.line + 2.0 * price <= most_at(j, kLine) ||
+        const double least_line = (directions_.empty() ? 2.0 : 1.0) * price;
+        const bool may_gain = from.least + from.line + least_line <= most_at(j, kLine) ||
                               from.least + from.arc + 3.0 * price <= most_at(j, kArc);
         if (!may_gain && (is_long || !may_be_last)) return;
         const Stretch all = counted(i, j);
@@ -229,6 +231,12 @@ class Segmentation {
             Vec2 along = along_line(scatter);
             if (dot(along, points_[j] - points_[i]) < 0.0) along = -1.0 * along;
             offer(i, j, kLine, of_line + rest + 2.0 * price, along, along);
+        }
+        for (const Vec2 direction : directions_) {
+            const double own = half_precision_ * off_line_along(scatter, direction) + rest + price;
+            if (from.least + own > most_at(j, kLine)) continue;
+            const double way = dot(direction, points_[j] - points_[i]) < 0.0 ? -1.0 : 1.0;
+            offer(i, j, kLine, own, way * direction, way * direction);
         }
         Left left{of_line, std::max(from.arc - more, 0.0), of_line - noise};
         if (of_line <= price || last - first + 1 < kFewest) return left;
@@ -337,7 +345,7 @@ class Segmentation {
         return pieces;
     }
 
-    std::span<const Vec2> points_;
+    std::span<const Vec2> points_, directions_;
     std::span<const double> s_, weights_;
     SegmentationSettings settings_;
     PrefixMoments moments_;

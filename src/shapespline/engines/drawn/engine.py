@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from shapespline.engines.drawn.assembly import assembled
 from shapespline.engines.drawn.beginnings import without_beginnings
 from shapespline.engines.drawn.between_corners import rows_between_corners
+from shapespline.engines.drawn.descent import descended, widest
 from shapespline.engines.drawn.ends import at_corners
 from shapespline.engines.drawn.estimated import MOST_WRONG, Estimated, begun, estimated, settled
 from shapespline.engines.drawn.fillets import rows_with_fillets
@@ -24,7 +24,6 @@ from shapespline.engines.drawn.judgement import (
     without_few,
 )
 from shapespline.engines.drawn.model import Model
-from shapespline.engines.drawn.nearby import rows_nearby
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn
 from shapespline.engines.drawn.regularities import NAMES, Search
@@ -33,6 +32,7 @@ from shapespline.engines.drawn.segments import (
     FREE,
     FREE_PARAMETERS,
     PRICE,
+    Prices,
     Segments,
     segmented,
     supported,
@@ -173,7 +173,7 @@ def _first_told(
             return _finished(best, regularities, tolerance)
         best = _cheapest(best, row)
         drawn = _finished(best, regularities, tolerance)
-        wider = _descended(best, wide=True) if best.told and not one.exact else best
+        wider = widest(best) if best.told and not one.exact else best
         if wider is best:
             return drawn
         return replace(_finished(wider, regularities, tolerance), otherwise=drawn)
@@ -299,28 +299,11 @@ def _cheapest(best: Estimated, row: Segments) -> Estimated:
     Compared with that of a row of more segments; from the cheaper one on step by step (DRA-38).
     """
     seen = best.model.seen
-    finer = segmented(seen, price=FINER * PRICE)
+    finer = segmented(seen, prices=Prices(FINER * PRICE))
     if (finer.first, finer.found) != (row.first, row.found):
         other = _of_row(seen, finer, best.model.ends, np.inf, whole=False)
         best = best if other is None else min(best, other, key=lambda one: one.whole_cost)
-    return _descended(best)
-
-
-def _descended(best: Estimated, *, wide: bool = False) -> Estimated:
-    """The cheapest reading that is found step by step; ``wide`` with all that noise allows."""
-    while True:
-        rows = rows_nearby(best.model)
-        others = [best]
-        for row in chain([best.model.row], rows) if wide > best.wide else rows:
-            other = estimated(best.model, row, np.inf, wide=wide)
-            if other is None or other.model.row is not row:
-                continue
-            # Without what speaks for it all that noise allows would make anything cheap.
-            if other.told or (is_short(other.model) and not wide):
-                others.append(settled(other, np.inf))
-        if (cheapest := min(others, key=lambda one: one.whole_cost)) is best:
-            return best
-        best = cheapest
+    return descended(best)
 
 
 def _is_preferred(alike: Estimated, best: Estimated) -> bool:

@@ -107,20 +107,32 @@ class Segments(NamedTuple):
         return _row(self.points[order], self.weights[order], (self.first + cut) % n, found)
 
 
-def segmented(seen: Observed, known: Segments | None = None, *, price: float = PRICE) -> Segments:
+class Prices(NamedTuple):
+    """Nats per parameter, and unit vectors along which a line takes its offset alone."""
+
+    parameter: float = PRICE
+    directions: FloatArray = np.empty((0, 2))
+
+
+PRICES = Prices()
+
+
+def segmented(
+    seen: Observed, known: Segments | None = None, *, prices: Prices = PRICES
+) -> Segments:
     """The segments of an outline; those of a closed one with nodes near a known row's (DRA-27)."""
     if not seen.closed:
-        return _merged(_solved(seen, 0, price=price)[0], seen)
+        return _merged(_solved(seen, 0, prices=prices)[0], seen)
     if seen.told_arcs:
-        return _between(seen, seen.told_arcs, price)
+        return _between(seen, seen.told_arcs, prices)
     n = len(seen.points)
     if known is not None and len(known.found) > 1:
         start = known.first
         about = [segment.begin for segment in known.found[1:]]
-        best, cost = _solved(seen, start, about, _near(about, n), price=price)
+        best, cost = _solved(seen, start, about, _near(about, n), prices=prices)
     else:
         start = sharpest(seen.points)
-        best, cost = _solved(seen, start, price=price)
+        best, cost = _solved(seen, start, prices=prices)
     # A second cut, at a node far from the first, frees the first one. Nodes stay where they are but
     # for some points, about the first one many.
     nodes = [segment.begin for segment in best.found[1:]]
@@ -130,17 +142,17 @@ def segmented(seen: Observed, known: Segments | None = None, *, price: float = P
         about = [(at - far) % n for at in nodes]
         near = np.concatenate([_near(about, n), (n - far) % n + np.arange(-FREED, FREED + 1)])
         near = near[(near > 0) & (near < n)]
-        again, other = _solved(seen, begin, about, near, price=price)
+        again, other = _solved(seen, begin, about, near, prices=prices)
         if other <= cost * (1 + 1e-12):
             best, cost = again, other
     if not seen.pixel and n <= FEW_POINTS:
-        best = _cut_anew(seen, best, cost, price)
+        best = _cut_anew(seen, best, cost, prices)
     best = _merged(best, seen)
     whole = next((k for k, s in enumerate(best.found) if s.kind != FREE), 0)
     return best.turned(whole)
 
 
-def _cut_anew(seen: Observed, best: Segments, cost: float, price: float) -> Segments:
+def _cut_anew(seen: Observed, best: Segments, cost: float, prices: Prices) -> Segments:
     """Segments of a closed outline that begins at any of their nodes, while they cost less.
 
     Only lines and arcs alone: where runs are left there are others that cost as little.
@@ -150,13 +162,13 @@ def _cut_anew(seen: Observed, best: Segments, cost: float, price: float) -> Segm
     while untried := {(best.first + s.begin) % n for s in best.found} - tried:
         at = min(untried)
         tried.add(at)
-        again, other = _solved(seen, at, price=price)
+        again, other = _solved(seen, at, prices=prices)
         if other < cost * (1 - 1e-12):
             best, cost = again, other
     return known if any(segment.kind == FREE for segment in best.found) else best
 
 
-def _between(seen: Observed, told: Sequence[tuple[int, int]], price: float) -> Segments:
+def _between(seen: Observed, told: Sequence[tuple[int, int]], prices: Prices) -> Segments:
     """Arcs that points tell exactly, and the segments of what lies between them."""
     start, n = told[0][0], len(seen.points)
     points = np.roll(seen.points, -start, axis=0)
@@ -168,7 +180,7 @@ def _between(seen: Observed, told: Sequence[tuple[int, int]], price: float) -> S
         found.append(Segment((i - start) % n, at, ARC))
         if after > at:
             part = seen.part(points[at : after + 1])
-            row = _merged(_solved(part, 0, price=price)[0], part)
+            row = _merged(_solved(part, 0, prices=prices)[0], part)
             found += [Segment(at + s.begin, at + s.end, s.kind) for s in row.found]
     stations = _along(np.hypot(*np.diff(points, axis=0).T))
     return Segments(points, stations, _weights(seen, stations), start, tuple(found))
@@ -209,7 +221,7 @@ def _solved(
     candidates: Sequence[int] = (),
     nodes: IntArray | None = None,
     *,
-    price: float,
+    prices: Prices,
 ) -> tuple[Segments, float]:
     """Segments of the row that begins at a point, and what they cost."""
     points = np.concatenate([seen.points[start:], seen.points[: start + seen.closed]])
@@ -223,11 +235,12 @@ def _solved(
         weights,
         np.array(candidates, dtype=np.int64),
         np.empty(0, dtype=np.int64) if nodes is None else nodes,
+        prices.directions,
         _kernels.SegmentationSettings(
             deviation=seen.deviation / size,
             skip=seen.skip / size,
             shortest=max(shortest * seen.skip, SHORTEST_STEPS * seen.step) / size,
-            price=price,
+            price=prices.parameter,
             free_parameters=FREE_PARAMETERS if seen.pixel else FREE_OF_POINTS,
             smooth_turn=float(np.tan(SMOOTH)),
             stride=max(FREE_STEP, round(len(points) / FREE_PARTS)),
