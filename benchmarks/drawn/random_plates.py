@@ -18,7 +18,7 @@ import shapespline as ss
 from benchmarks.drawn.few_points import fitted, is_outline, is_right, said
 from benchmarks.drawn.found import Found
 from benchmarks.drawn.shapes import rounded
-from benchmarks.drawn.truth import sampled
+from benchmarks.drawn.truth import Arc, sampled
 
 if TYPE_CHECKING:
     from benchmarks.drawn.truth import Array, Outline
@@ -51,6 +51,8 @@ SIZE, RADII, SHAKEN, USUAL, SHARP = 100.0, (0.04, 0.06, 0.08), 0.02, 0.7, 0.5
 # Points without noise, and tolerances over the box diagonal; noise over that, and points.
 COUNTS, TOLERANCES = (300, 1000), (None, 0.001, 0.003)
 NOISES = ((0.0002, 200), (0.001, 200), (0.005, 200), (0.002, 400), (0.001, 1000), (0.005, 1000))
+# Noise, points and a tolerance.
+WITHIN = ((0.0002, 400, 0.001), (0.0002, 400, 0.003), (0.0002, 1000, 0.001), (0.0005, 1000, 0.003))
 # Step of a dense sampling, and the part of it that distances are measured from.
 STEP, EVERY = 0.02, 5
 
@@ -116,6 +118,27 @@ def noisy_table() -> str:
     return "".join(f"| {line} |\n" for line in lines)
 
 
+def within_table() -> str:
+    """Right fits of noisy points within a tolerance, and stored points over the drawing's own."""
+    heads = [f"{100 * noise:g} %, {count}, {said(within)}" for noise, count, within in WITHIN]
+    lines = [f"Right of {DRAWS * len(FORMS)}, points | " + " | ".join(heads)]
+    lines.append("|".join(["---"] * (1 + len(WITHIN))))
+    for regular in (True, False):
+        cells = []
+        for noise, count, within in WITHIN:
+            right, stored, own = 0, 0, 0
+            for form, draw in _all():
+                outline = plate(form, draw, regular=regular)
+                points = points_of(sampled(outline, STEP), count, noise, _random(form, draw))
+                fit = fitted(points, within)
+                right += is_outline(fit, outline)
+                stored += fit.n_stored_points
+                own += sum(2 if isinstance(one, Arc) else 1 for one in outline)
+            cells.append(f"{right}, {stored / own:.2f}")
+        lines.append(f"{_kind(regular)} | " + " | ".join(cells))
+    return "".join(f"| {line} |\n" for line in lines)
+
+
 def _all() -> list[tuple[str, int]]:
     return [(form, draw) for form in FORMS for draw in range(DRAWS)]
 
@@ -135,3 +158,4 @@ def _kind(regular: bool) -> str:
 if __name__ == "__main__":
     print(clean_table())
     print(noisy_table())
+    print(within_table())

@@ -2,34 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.analysis import NOISE_BAND, largest_bulge, resolution
+from shapespline.analysis import LEAST_TURN, NOISE_BAND, largest_bulge, resolution
 from shapespline.engines.drawn import (
+    FEW_ELEMENTS,
     ONE_BIT,
+    POINTS_EACH,
     DrawnArc,
     DrawnLine,
     simplified,
 )
 from shapespline.engines.pieces import MirroredHalf
 from shapespline.fitting.choose import DRAWN, FEW_DRAWN
-from shapespline.fitting.estimate import DRAWN_DEARER
+from shapespline.fitting.estimate import DRAWN_DEARER, Estimation
 from shapespline.fitting.measured_runs import MeasuredRuns
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.verify import Candidate
-from shapespline.geometry import joined, two_sided_distance
+from shapespline.geometry import joined, turn_between, two_sided_distance
 from shapespline.validation import median
-from shapespline.values import Contour, Piece
+from shapespline.values import CORNER_TURN, Contour, Piece
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from shapespline.analysis import Resolution
     from shapespline.engines.drawn import Drawn
-    from shapespline.fitting.estimate import Estimation
     from shapespline.fitting.strategies import Ask, Proposals
     from shapespline.monitor import Monitor
     from shapespline.values import Regularity
@@ -41,6 +43,8 @@ FARTHEST, FARTHEST_OF_PICTURE, FARTHEST_CORNER = 1.5, 25.0, 75.0
 # Free-form runs among noisy points must cost so much less than lines and arcs alone, two control
 # points (FIT-38).
 RUNS_DEARER = 7.0
+# Part of noisy points that lines and arcs make up beside a free-form run (DRA-51).
+LEAST_SHARE = 0.9
 # Kinds of pieces that are neither lines nor arcs.
 CURVED = ("bezier", "spline")
 
@@ -74,6 +78,10 @@ class DrawnPieces:
             )
             cost = None if candidate is None else self._cost(candidate, reading, problem)
             if candidate is not None and cost is not None:
+                if self._is_evident(candidate, reading, problem, monitor):
+                    candidate = replace(candidate, rank=DRAWN)
+                elif not reading.is_told and self._is_chain(reading):
+                    continue
                 dearer = RUNS_DEARER if reading.has_runs else 0.0
                 proposed.append((cost + dearer, candidate, reading))
                 if not reading.has_runs and self._needs_no_other(cost):
@@ -101,9 +109,13 @@ class DrawnPieces:
             if symmetric and not mirrored and MirroredHalf.of(problem.thinned):
                 return
             for one in (found, found.otherwise):
-                # What chains of elements left is no run by itself.
-                if one is not None and not (noisy and one.has_runs):
+                if one is None:
+                    continue
+                if not (noisy and one.has_runs):
                     yield one
+                elif one.share >= LEAST_SHARE:
+                    # What chains of elements left is no run, unless it is little (DRA-51).
+                    yield replace(one, is_told=False)
         if noisy and not (of_picture or symmetric):
             yield from problem.between_corners
 
@@ -183,6 +195,36 @@ class DrawnPieces:
             return True
         return cost <= self.estimation.smooth.cost - DRAWN_DEARER
 
+    def _is_evident(
+        self, candidate: Candidate, drawn: Drawn, problem: Problem, monitor: Monitor
+    ) -> bool:
+        """Whether lines and arcs that repeat nothing tell many points better than one spline.
+
+        Then they were drawn: no smooth curve is told so. Within a tolerance, where curves of fewer
+        points may do, only if there are arcs, no corner is blunt and points are twice as many
+        (DRA-51).
+        """
+        estimation = self.estimation
+        each = len(problem.contour) / len(drawn.parts) / POINTS_EACH
+        if drawn.is_told or problem.contour.level_line is not None or each < 1.0:
+            return False
+        if estimation is None:
+            closed = problem.contour.closed
+            if each < 2.0 or not _has_arcs_and_clear_corners(candidate.pieces, closed=closed):
+                return False
+            estimation = Estimation(problem, monitor)
+        return _told_by(estimation, candidate, drawn) is not None
+
+    def _is_chain(self, drawn: Drawn) -> bool:
+        """Whether it may follow any curve: many elements with arcs, or with runs beside them.
+
+        Runs within a tolerance lie beside edges of exact points alone (DRA-45).
+        """
+        if drawn.has_runs:
+            return self.estimation is not None
+        has_arcs = any(isinstance(part, DrawnArc) for part in drawn.parts)
+        return has_arcs and len(drawn.parts) > FEW_ELEMENTS
+
     def _cost(self, candidate: Candidate, drawn: Drawn, problem: Problem) -> float | None:
         """What the curve costs; None where it misses points, or noisy ones tell no other as well.
 
@@ -216,8 +258,23 @@ class DrawnPieces:
         # What is left of a picture's slow errors is no noise.
         if accuracy is not None or shown.clean:
             return 0.0
-        n_unknowns = drawn.n_unknowns + 2 * _n_of_runs(candidate.pieces, drawn)
-        return self.estimation.cost_of(candidate.pieces, n_unknowns, told=drawn.is_told)
+        return _told_by(self.estimation, candidate, drawn)
+
+
+def _has_arcs_and_clear_corners(pieces: tuple[Piece, ...], *, closed: bool) -> bool:
+    """Whether not all are lines, and they meet smoothly or in corners; chords of curves do not."""
+    turns = (
+        abs(turn_between(before, after))
+        for before, after in pairwise([*pieces, *(pieces[:1] if closed else ())])
+    )
+    blunt = any(CORNER_TURN < turn < LEAST_TURN for turn in turns)
+    return not blunt and any(piece.arc is not None for piece in pieces)
+
+
+def _told_by(estimation: Estimation, candidate: Candidate, drawn: Drawn) -> float | None:
+    """What a curve of measured points costs; None if one spline tells them better."""
+    n_unknowns = drawn.n_unknowns + 2 * _n_of_runs(candidate.pieces, drawn)
+    return estimation.cost_of(candidate.pieces, n_unknowns, told=drawn.is_told)
 
 
 def _n_of_runs(pieces: tuple[Piece, ...], drawn: Drawn) -> int:

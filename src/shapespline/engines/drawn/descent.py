@@ -54,7 +54,7 @@ def _read(model: Model, rows: Iterable[Segments], *, wide: bool) -> Iterator[Est
         if found is None or found.model.row is not row:
             continue
         # Without what speaks for it all that noise allows would make anything cheap.
-        if found.told or (is_short(found.model) and not wide):
+        if found.told or (is_short(found.model, np.inf) and not wide):
             yield settled(found, np.inf)
 
 

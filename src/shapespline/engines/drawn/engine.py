@@ -283,7 +283,7 @@ def _of_row(
             best = other
             as_read = as_read or free_runs(repeated_row) <= free_runs(model.row)
             break
-    if best is None or not (best.told or is_short(best.model)):
+    if best is None or not (best.told or is_short(best.model, tolerance)):
         fewer = without_beginnings(row, seen)
         again = None if fewer is row else _of_row(seen, fewer, ends, tolerance, whole=whole)
         if again is not None or best is None or not is_plain(best.model):

@@ -11,8 +11,8 @@ from shapespline.engines.drawn.joints import turn_at
 from shapespline.engines.drawn.judgement import (
     HOPELESS,
     is_enough,
-    is_short,
     is_told,
+    may_be_short,
     misfitting,
 )
 from shapespline.engines.drawn.model import Model
@@ -96,7 +96,7 @@ def estimated(
             told = is_told(model, found, tolerance, HOPELESS if bad else 1.0)
             if not bad:
                 return Estimated(model, found, told, wide)
-            if not told and not is_short(model):
+            if not told and not may_be_short(model, tolerance):
                 return None
         row, n_wrong = supported(_without(model, bad, tolerance), seen.closed), n_wrong + len(bad)
     return None

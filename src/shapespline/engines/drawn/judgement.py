@@ -219,9 +219,28 @@ def share(row: Segments) -> float:
     return sum(float(s[j] - s[i]) for i, j, kind in row.found if kind != FREE) / float(s[-1])
 
 
-def is_short(model: Model) -> bool:
-    """Whether so few elements make up all of an outline that they may be fewer than curves."""
-    return len(model.at) == len(model.row.found) <= FEW_ELEMENTS
+def is_short(model: Model, tolerance: float) -> bool:
+    """Whether so few elements make up all of an outline that they may be fewer than curves.
+
+    Or more of them that have many noisy points each; without a tolerance nearly all (DRA-51).
+    """
+    many = _has_many_points(model)
+    if many and np.isinf(tolerance):
+        return share(model.row) >= 1.0 - LITTLE_FREE
+    n = len(model.row.found)
+    return len(model.at) == n and (many or n <= FEW_ELEMENTS)
+
+
+def may_be_short(model: Model, tolerance: float) -> bool:
+    """Whether it may be so without the elements that its points contradict."""
+    few = len(model.row.found) <= FEW_ELEMENTS
+    return (few or np.isinf(tolerance)) and is_short(model, tolerance)
+
+
+def _has_many_points(model: Model) -> bool:
+    """Whether elements have many noisy points each."""
+    row, seen = model.row, model.seen
+    return not (seen.pixel or seen.exact) and len(row.found) * POINTS_EACH <= len(row.points)
 
 
 def is_told(model: Model, found: list[Regularity], tolerance: float, part: float = 1.0) -> bool:
