@@ -45,6 +45,9 @@ FARTHEST, FARTHEST_OF_PICTURE, FARTHEST_CORNER = 1.5, 25.0, 75.0
 RUNS_DEARER = 7.0
 # Part of noisy points that lines and arcs make up beside a free-form run (DRA-51).
 LEAST_SHARE = 0.9
+# Nats that each piece saves of what one spline costs where lines and arcs that repeat nothing were
+# drawn: those of one of its numbers (DRA-51).
+SAVED = 4.0
 # Kinds of pieces that are neither lines nor arcs.
 CURVED = ("bezier", "spline")
 
@@ -200,20 +203,20 @@ class DrawnPieces:
     ) -> bool:
         """Whether lines and arcs that repeat nothing tell many points better than one spline.
 
-        Then they were drawn: no smooth curve is told so. Within a tolerance, where curves of fewer
-        points may do, only if there are arcs, no corner is blunt and points are twice as many
-        (DRA-51).
+        Then they were drawn: no smooth curve is told so. Within a tolerance they have arcs and no
+        blunt corners, which is soon found out (DRA-51).
         """
-        estimation = self.estimation
-        each = len(problem.contour) / len(drawn.parts) / POINTS_EACH
-        if drawn.is_told or problem.contour.level_line is not None or each < 1.0:
+        contour, estimation = problem.contour, self.estimation
+        many = len(drawn.parts) * POINTS_EACH <= len(contour)
+        if drawn.is_told or not many or contour.level_line is not None:
             return False
         if estimation is None:
-            closed = problem.contour.closed
-            if each < 2.0 or not _has_arcs_and_clear_corners(candidate.pieces, closed=closed):
+            if not _has_arcs_and_clear_corners(candidate.pieces, closed=contour.closed):
                 return False
             estimation = Estimation(problem, monitor)
-        return _told_by(estimation, candidate, drawn) is not None
+        cost = _told_by(estimation, candidate, drawn)
+        saved = 0.0 if cost is None else estimation.smooth.cost - cost
+        return saved >= SAVED * len(candidate.pieces)
 
     def _is_chain(self, drawn: Drawn) -> bool:
         """Whether it may follow any curve: many elements with arcs, or with runs beside them.

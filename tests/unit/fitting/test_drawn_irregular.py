@@ -42,12 +42,14 @@ def test_a_fillet_of_two_points_is_a_curve_among_lines_and_arcs():
     assert sorted(kinds) == ["arc"] * 5 + ["bezier"] + ["line"] * 6
 
 
-@pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("name", ["leaf840_closed", "fa_dove_c0"])
+@pytest.mark.parametrize(
+    ("name", "seed"), [("leaf840_closed", 0), *(("fa_dove_c0", k) for k in range(5))]
+)
 def test_a_chain_of_lines_and_arcs_is_no_drawing(name, seed):
+    # Of a dove in noise nine arcs and eight lines leave little more than a spline of more numbers.
     (outline,) = (one.contour for one in own_corpus() if one.name == name)
-    even = outline.resampled(400)
-    noise = np.random.default_rng(seed).normal(0, 0.0003 * even.box_diagonal, even.points.shape)
-    fit = ss.fit_curve(even.points + noise, closed=even.closed, tolerance=0.002 * even.box_diagonal)
+    even = outline.resampled(1000)
+    noise = np.random.default_rng(seed).normal(0, 0.001 * even.box_diagonal, even.points.shape)
+    fit = ss.fit_curve(even.points + noise, closed=True, tolerance=0.006 * even.box_diagonal)
     assert fit.kept
     assert not any(piece.kind == "arc" for piece in fit.pieces)
