@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from shapespline.analysis import LEAST_TURN, NOISE_BAND, largest_bulge, resolution
 from shapespline.engines.drawn import (
     FEW_ELEMENTS,
+    LITTLE_FREE,
     ONE_BIT,
     POINTS_EACH,
     DrawnArc,
@@ -19,11 +19,11 @@ from shapespline.engines.drawn import (
 )
 from shapespline.engines.pieces import MirroredHalf
 from shapespline.fitting.choose import DRAWN, FEW_DRAWN
-from shapespline.fitting.estimate import DRAWN_DEARER, Estimation
+from shapespline.fitting.estimate import DRAWN_DEARER, Estimation, turns_of
 from shapespline.fitting.measured_runs import MeasuredRuns
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.verify import Candidate
-from shapespline.geometry import joined, turn_between, two_sided_distance
+from shapespline.geometry import joined, two_sided_distance
 from shapespline.validation import median
 from shapespline.values import CORNER_TURN, Contour, Piece
 
@@ -43,8 +43,6 @@ FARTHEST, FARTHEST_OF_PICTURE, FARTHEST_CORNER = 1.5, 25.0, 75.0
 # Free-form runs among noisy points must cost so much less than lines and arcs alone, two control
 # points (FIT-38).
 RUNS_DEARER = 7.0
-# Part of noisy points that lines and arcs make up beside a free-form run (DRA-51).
-LEAST_SHARE = 0.9
 # Nats that each piece saves of what one spline costs where lines and arcs that repeat nothing were
 # drawn: those of one of its numbers (DRA-51).
 SAVED = 4.0
@@ -116,7 +114,7 @@ class DrawnPieces:
                     continue
                 if not (noisy and one.has_runs):
                     yield one
-                elif one.share >= LEAST_SHARE:
+                elif one.share >= 1.0 - LITTLE_FREE:
                     # What chains of elements left is no run, unless it is little (DRA-51).
                     yield replace(one, is_told=False)
         if noisy and not (of_picture or symmetric):
@@ -266,12 +264,9 @@ class DrawnPieces:
 
 def _has_arcs_and_clear_corners(pieces: tuple[Piece, ...], *, closed: bool) -> bool:
     """Whether not all are lines, and they meet smoothly or in corners; chords of curves do not."""
-    turns = (
-        abs(turn_between(before, after))
-        for before, after in pairwise([*pieces, *(pieces[:1] if closed else ())])
-    )
-    blunt = any(CORNER_TURN < turn < LEAST_TURN for turn in turns)
-    return not blunt and any(piece.arc is not None for piece in pieces)
+    turns = np.abs(turns_of(pieces, closed=closed))
+    blunt = (turns > CORNER_TURN) & (turns < LEAST_TURN)
+    return not blunt.any() and any(piece.arc is not None for piece in pieces)
 
 
 def _told_by(estimation: Estimation, candidate: Candidate, drawn: Drawn) -> float | None:

@@ -109,12 +109,12 @@ class Evidence(NamedTuple):
         found, misfit = two_sided_distance(curve, contour), means.misfit(curve)
         stored = sum(piece.n_stored for piece in pieces)
         stored += 0 if contour.closed else 1
-        sharp = [abs(turn) > CORNER_TURN for turn in _turns(pieces, closed=contour.closed)]
+        sharp = [abs(turn) > CORNER_TURN for turn in turns_of(pieces, closed=contour.closed)]
         price = PENALTY * stored + np.log(len(contour)) * max(0, sum(sharp) - n_proven)
         return cls(misfit + price, found.hausdorff_distance, stored, n_proven)
 
 
-def _turns(pieces: tuple[Piece, ...], *, closed: bool) -> list[float]:
+def turns_of(pieces: tuple[Piece, ...], *, closed: bool) -> list[float]:
     """Angles at the joints, radians."""
     around = [*pieces, *(pieces[:1] if closed else ())]
     return [turn_between(before, after) for before, after in pairwise(around)]
@@ -205,7 +205,7 @@ class Estimation:
 
     def _n_clear_corners(self, pieces: tuple[Piece, ...]) -> int:
         """Corners that turn as much as those of data do."""
-        turns = _turns(pieces, closed=self.ordered.closed)
+        turns = turns_of(pieces, closed=self.ordered.closed)
         return sum(abs(turn) >= LEAST_TURN for turn in turns)
 
     def explains(self, evidence: Evidence) -> bool:

@@ -35,7 +35,7 @@ def test_few_points_of_one_tell_it_without_a_tolerance(form, draw, count):
 
 
 def test_a_fillet_of_two_points_is_a_curve_among_lines_and_arcs():
-    # Its fourth fillet is as long as one and a half steps, which no arc tells; all was one spline.
+    # Its fourth fillet is as long as two steps, which no arc tells; all was one spline.
     outline, points = measured("L", 3, 200, 0.0002)
     kinds = [piece.kind for piece in fitted(points, None).pieces]
     assert len(kinds) == len(outline) == 12
