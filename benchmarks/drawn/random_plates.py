@@ -1,4 +1,4 @@
-"""Plates of random forms and places, level or not: what comes back of their points.
+"""Plates of random forms and places, level or not: what comes back of points and pictures.
 
     python -m benchmarks.drawn.random_plates
 
@@ -17,8 +17,9 @@ from scipy.spatial import cKDTree
 import shapespline as ss
 from benchmarks.drawn.few_points import fitted, is_outline, is_right, said
 from benchmarks.drawn.found import Found
+from benchmarks.drawn.renderers import RENDERERS
 from benchmarks.drawn.shapes import rounded
-from benchmarks.drawn.truth import Arc, sampled
+from benchmarks.drawn.truth import Arc, placed, sampled
 
 if TYPE_CHECKING:
     from benchmarks.drawn.truth import Array, Outline
@@ -53,6 +54,8 @@ COUNTS, TOLERANCES = (300, 1000), (None, 0.001, 0.003)
 NOISES = ((0.0002, 200), (0.001, 200), (0.005, 200), (0.002, 400), (0.001, 1000), (0.005, 1000))
 # Noise, points and a tolerance.
 WITHIN = ((0.0002, 400, 0.001), (0.0002, 400, 0.003), (0.0002, 1000, 0.001), (0.0005, 1000, 0.003))
+# Pictures: renderers, pixels, tolerances in pixels.
+PICTURED, PIXELS, IN_PIXELS = ("exact coverage", "Cairo", "JPEG 90"), (128, 256, 512), (None, 0.35)
 # Step of a dense sampling, and the part of it that distances are measured from.
 STEP, EVERY = 0.02, 5
 
@@ -139,6 +142,28 @@ def within_table() -> str:
     return "".join(f"| {line} |\n" for line in lines)
 
 
+def pictures_table() -> str:
+    """Right fits of traced pictures."""
+    cells = [(tolerance, size) for tolerance in IN_PIXELS for size in PIXELS]
+    heads = [f"{'none' if tolerance is None else tolerance}, {size}" for tolerance, size in cells]
+    lines = [f"Right of {DRAWS * len(FORMS)} | " + " | ".join(heads)]
+    lines.append("|".join(["---"] * (1 + len(cells))))
+    for renderer in PICTURED:
+        for regular in (True, False):
+            right = dict.fromkeys(cells, 0)
+            for form, draw in _all():
+                outline = plate(form, draw, regular=regular)
+                for size in PIXELS:
+                    outlines = placed([outline], size, 0.0, seed=draw)
+                    traced = ss.trace(RENDERERS[renderer](outlines, size))
+                    for tolerance in IN_PIXELS:
+                        fits = [ss.fit_curve(one, tolerance=tolerance) for one in traced]
+                        right[tolerance, size] += len(fits) == 1 and is_outline(fits[0], outline)
+            found = " | ".join(map(str, right.values()))
+            lines.append(f"{renderer}, {_kind(regular)} | {found}")
+    return "".join(f"| {line} |\n" for line in lines)
+
+
 def _all() -> list[tuple[str, int]]:
     return [(form, draw) for form in FORMS for draw in range(DRAWS)]
 
@@ -159,3 +184,4 @@ if __name__ == "__main__":
     print(clean_table())
     print(noisy_table())
     print(within_table())
+    print(pictures_table())

@@ -17,6 +17,7 @@ from shapespline.engines.drawn.ends import (
     off_by,
 )
 from shapespline.engines.drawn.joints import direction_at, turn_at
+from shapespline.engines.drawn.jumps import jump_clearly
 from shapespline.engines.drawn.regularities import DIRECTIONS, OF_PICTURES, RADII, TANGENT_TURN
 from shapespline.engines.drawn.segments import ARC, CORNER, FREE, LINE, is_corner
 
@@ -244,15 +245,16 @@ def _has_many_points(model: Model) -> bool:
 
 
 def is_told(model: Model, found: list[Regularity], tolerance: float, part: float = 1.0) -> bool:
-    """Whether what elements repeat tells of a drawing, or all of them follow many exact points.
+    """Whether what elements repeat tells of a drawing, or how they meet.
 
-    Lines alone within a tolerance are what curves of fewer points are compared with.
+    Or all of them follow many exact points. Lines alone within a tolerance are what curves of fewer
+    points are compared with.
     """
     row, n = model.row, len(model.row.found)
     exactly = model.seen.exact and len(model.at) == n <= len(row.points) / POINTS_EACH
     if exactly and (np.isinf(tolerance) or any(kind == ARC for _, _, kind in row.found)):
         return True
-    return repeated(model, found) >= part * LEAST_SAID
+    return jump_clearly(model) or repeated(model, found) >= part * LEAST_SAID
 
 
 def has_blunt_arcs(model: Model) -> bool:
