@@ -45,6 +45,18 @@ of reach where their chord is farther off.
 
 """
 
+NOISY = """
+Noisy points within a tolerance, and the stored points over the drawing's own: corners that no point
+lies in are cut where their chord is within it.
+
+"""
+
+TRACED = """
+The same plates traced from pictures, by renderers, without a tolerance and within 0.35 pixels, of
+so many pixels.
+
+"""
+
 FEW = """
 Few measured points, 24 to 60 of shapes 60 wide (`python -m benchmarks.drawn.few_points`): how many
 fits have the lines and arcs that were drawn and nothing else. Within a tolerance corners between
@@ -73,6 +85,7 @@ def main() -> None:
     pictures, points = pictures_tables(), f"{sampled_table()}\n{recovered_table()}\n{LIMITS}"
     points += f"{limits_table()}{PROFILES}{profiles_table()}{CLEAN}{clean_table()}"
     points += f"{RANDOM}{random_plates.clean_table()}\n{random_plates.noisy_table()}"
+    points += f"{NOISY}{random_plates.within_table()}{TRACED}{random_plates.pictures_table()}"
     points += f"{FEW}{measured_table()}{EXPORTED}{exported_table()}{ORGANIC}{organic_table()}"
     print("\n".join([*pictures.texts, points, *pictures.left_out]))
     if asked.page:

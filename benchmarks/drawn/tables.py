@@ -23,8 +23,9 @@ if TYPE_CHECKING:
     from benchmarks.drawn.renderers import Picture
     from benchmarks.drawn.truth import Outline
 
-SIZE, SIZES, TOLERANCES = 256, (128, 512), (None, 0.35)
-EXACT = "exact coverage"
+WITHIN = 0.35
+SIZE, SIZES, TOLERANCES = 256, (128, 512), (None, WITHIN)
+EXACT, JPEG = "exact coverage", "JPEG 90"
 # As drawn, of areas of the paper and two inks.
 IN_COLOURS = "drawn, in colours"
 # Plates that are sampled, noise in per cent and numbers of points.
@@ -151,6 +152,12 @@ def pictures_tables() -> Tables:
         for one in (f"{CUT}, tinted", "printed", "photographed")
     ]
     tables.add(f"Plates and icons, {SIZE} pixels, drawn, renderers", rows, SIZE)
+    rows = [(one, names_of(*both), WITHIN, "drawn", one) for one in RENDERERS if one != EXACT]
+    rows += [
+        (f"words and letters, {one}", names_of("word", "letter"), WITHIN, "drawn", one)
+        for one in (EXACT, JPEG)
+    ]
+    tables.add(f"Drawn, renderers, {SIZE} pixels, {_said(WITHIN)}", rows, SIZE)
     for size in SIZES:
         rows = [(_said(one), names_of(*both), one, "drawn", EXACT) for one in TOLERANCES]
         tables.add(f"Plates and icons, {size} pixels, drawn", rows, size)

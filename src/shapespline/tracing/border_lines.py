@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.tracing.borders import OUTSIDE
-from shapespline.tracing.corners import missing_around, put_back, rounded_off, uncertain_by
+from shapespline.tracing.corners import missing_around, put_back
 from shapespline.tracing.coverage import border_coverage
 from shapespline.tracing.lines import DRAWN_ACCURACY, MOST, Line
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from shapespline.tracing.borders import Arc, Borders, Ring
     from shapespline.tracing.color_edges import NodePlaces, Seen
+    from shapespline.tracing.corners import Missing
     from shapespline.tracing.sides import Corners
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
@@ -52,8 +53,7 @@ def drawn_borders(seen: Seen, found: Bordering) -> list[Line]:
         first, second = _sides(corners, found)
         axis = seen.axis(first, second)
         missing = _missing(corners.points, tried, found, seen, first, axis)
-        uncertain = uncertain_by(soft, seen.noise_along(axis))
-        return np.asarray(np.abs(missing) <= uncertain + rounded_off(corners))
+        return missing.fits(corners, soft, seen.noise_along(axis))
 
     points = put_back(lines, levels, certain, closed, fit, soft)
     return [Line(*line) for line in zip(points, levels, accuracies, strict=True)]
@@ -77,8 +77,8 @@ def _missing(
     seen: Seen,
     first: IntArray,
     axis: FloatArray,
-) -> FloatArray:
-    """Square pixels of the left colour that the picture has around corners and the areas do not."""
+) -> Missing:
+    """What of the left colour the picture has around corners and the areas do not."""
     colors = seen.palette.colors
     ground = colors[first]
     covered = {

@@ -11,7 +11,7 @@ drawing with it: a rounding has less.
 from __future__ import annotations
 
 from math import ceil
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -54,6 +54,10 @@ CUT_OFF_BLURRED = (8.0, 5.17, 3.88, 2.61, 1.74, 1.29, 0.99, 0.77, 0.6, 0.45, 0.3
 # much, than a rounding of this radius takes or a tip of this length has, and this many square
 # pixels; so many more for each pixel of blur, as the blur is not known exactly (TRC-20).
 AROUND, ROUNDING, TIP, UNCERTAIN, UNCERTAIN_BLUR = 3, 0.5, 1.5, 0.03, 0.25
+# Where edges are rippled, what pixels farther than so many from a corner miss is ripples: so many
+# deviations in each are not told of the sum, but no more than a rounding of this radius takes
+# (TRC-37).
+BESIDE, RIPPLES, RIPPLED_OFF = 2, 5.0, 1.5
 # Corners whose ink is added up at once.
 TOGETHER = 10_000
 # From which sides corners are looked for: how far they are disturbed, and how far they go.
@@ -97,7 +101,7 @@ def sharpened(
             picture=lambda some, r, c: field.ink(r, c) / ink[some],
             drawing=lambda _some, r, c: covered.at(r, c, field.shape[1]),
         )
-        return np.abs(missing) <= rounded_off(corners) + uncertain_by(soft, field.noise)
+        return missing.fits(corners, soft, field.noise)
 
     return put_back(outlines, level_lines, drawn, [True] * len(outlines), fit, soft)
 
@@ -158,14 +162,19 @@ def _away(found: Corners, corners: Corners) -> BoolArray:
 
 
 def rounded_off(corners: Corners) -> FloatArray:
-    """Square pixels that a rounding takes from corners, of acute ones no more than a tip has.
+    """Square pixels that a rounding takes from corners which is none to speak of.
 
     Half of it where less of the sides than usual is taken for disturbed.
     """
-    half = np.tan(0.5 * corners.turns)
-    most = np.minimum(ROUNDING**2 * (half - 0.5 * corners.turns), TIP**2 / half)
-    disturbed = 0.5 * (corners.ends - corners.begins) - SQUARE * half
+    most = taken_off(corners.turns, ROUNDING)
+    disturbed = 0.5 * (corners.ends - corners.begins) - SQUARE * np.tan(0.5 * corners.turns)
     return np.where(disturbed < 0.5 * DISTURBED[0], 0.5 * most, most)
+
+
+def taken_off(turns: FloatArray, radius: float) -> FloatArray:
+    """Square pixels that a rounding takes from corners, of acute ones no more than a tip has."""
+    half = np.tan(0.5 * turns)
+    return np.minimum(radius**2 * (half - 0.5 * turns), TIP**2 / half)
 
 
 def _distances(
@@ -244,14 +253,40 @@ def around(
     return r, c, (r >= 0) & (r < height) & (c >= 0) & (c < width)
 
 
+class Missing(NamedTuple):
+    """What the pixels around each corner have and those of a drawing do not.
+
+    Attributes
+    ----------
+    ink : ndarray, shape (n,)
+        Added up, square pixels.
+    beside : ndarray, shape (n,)
+        Root mean square of the pixels that are no part of the corner.
+    """
+
+    ink: FloatArray
+    beside: FloatArray
+
+    def fits(self, corners: Corners, soft: Softness, noise: FloatArray | float) -> BoolArray:
+        """Which corners miss no more than is not told, in noise of the contrast."""
+        side = 2 * reach_of(soft) + 1
+        uncertain = 3 * side * np.asarray(noise)
+        if soft.rippled:
+            ripples = RIPPLES * side * self.beside
+            most = taken_off(corners.turns, RIPPLED_OFF)
+            uncertain = np.maximum(uncertain, np.minimum(ripples, most))
+        uncertain = uncertain + UNCERTAIN + UNCERTAIN_BLUR * soft.blur
+        return np.asarray(np.abs(self.ink) <= rounded_off(corners) + uncertain)
+
+
 def missing_around(
     at: FloatArray,
     size: tuple[int, int],
     soft: Softness,
     picture: Pixels,
     drawing: Pixels,
-) -> FloatArray:
-    """What the pixels around each corner have and those of a blurred drawing do not, added up.
+) -> Missing:
+    """What the pixels around each corner have and those of a blurred drawing do not.
 
     Parameters
     ----------
@@ -264,7 +299,9 @@ def missing_around(
     """
     reach, margin = reach_of(soft), ceil(BLURRED * soft.blur)
     shown = (slice(None), *(slice(margin, margin + 2 * reach + 1),) * 2)
-    missing = []
+    offsets = np.abs(np.arange(-reach, reach + 1))
+    beside = np.maximum(offsets[:, None], offsets) > BESIDE
+    ink, off = [], []
     for some in np.array_split(np.arange(len(at)), len(at) // TOGETHER + 1):
         r, c, inside = around(at[some], size, reach + margin)
         r, c = np.clip(r, 0, size[0] - 1), np.clip(c, 0, size[1] - 1)
@@ -274,15 +311,12 @@ def missing_around(
 
             drawn = gaussian_filter(drawn, soft.blur, axes=(1, 2), radius=margin)
         more = picture(some, r[shown], c[shown]) - drawn[shown]
-        missing.append(np.where(inside[shown], more, 0.0).sum(axis=(1, 2)))
-    return np.concatenate(missing)
+        more = np.where(inside[shown], more, 0.0)
+        ink.append(more.sum(axis=(1, 2)))
+        off.append(np.sqrt((more[:, beside] ** 2).mean(axis=1)))
+    return Missing(np.concatenate(ink), np.concatenate(off))
 
 
 def reach_of(soft: Softness) -> int:
     """Pixels on either side of a corner whose ink is added up."""
     return AROUND + round(soft.blur)
-
-
-def uncertain_by(soft: Softness, noise: FloatArray | float) -> FloatArray | float:
-    """Square pixels that are not told around a corner, in noise of the contrast."""
-    return UNCERTAIN + UNCERTAIN_BLUR * soft.blur + 3 * (2 * reach_of(soft) + 1) * noise

@@ -41,16 +41,20 @@ SOFT, SCATTERED = 0.75, 0.01
 LEVEL_ACCURACY, SOFT_ACCURACY, UNBOUNDED = 0.07, 0.04, 4 / 3
 # In more noise than this, of the contrast, ink tells no corner from a rounding (TRC-20).
 NOISIEST_CORNER = 0.065
+# Where more than this part of the outermost pixels are off by these parts of the contrast, edges
+# have ripples beside them, as JPEG lets them: of what a renderer draws so many are not (TRC-37).
+RIPPLED, LEAST_RIPPLE, LARGEST_RIPPLE = 0.035, 0.001, 0.03
 
 
 class Softness(NamedTuple):
     """Standard deviations in pixels: of the blur, and of how noise scatters a level line.
 
-    Both are 0 where the grey does not tell.
+    Both are 0 where the grey does not tell. ``rippled`` are sharp edges with ripples beside them.
     """
 
     blur: float = 0.0
     scatter: float = 0.0
+    rippled: bool = False
 
     @classmethod
     def of(cls, field: Field, found: Crossings, inks: FloatArray) -> Softness:
@@ -82,11 +86,12 @@ class Softness(NamedTuple):
             Of the contrast.
         """
         blur = _blur(profiles, beside, noise)
+        rippled = not blur and _is_rippled(profiles)
         if blur is None:
-            return SHARP
+            return cls(rippled=rippled)
         # What noise is over the slope of an edge.
         slope = 1.0 / np.sqrt(2 * np.pi * (blur**2 + WITHIN_PIXEL))
-        return cls(blur, noise * float(np.sqrt(BETWEEN_PIXELS) / slope))
+        return cls(blur, noise * float(np.sqrt(BETWEEN_PIXELS) / slope), rippled)
 
     @property
     def on_level(self) -> bool:
@@ -108,11 +113,22 @@ class Softness(NamedTuple):
 SHARP = Softness()
 
 
+def _outermost(profiles: FloatArray) -> FloatArray:
+    """How far the two outermost pixels of ground and of ink are off, shape (n, 4)."""
+    return np.abs(np.concatenate([profiles[:, :2], profiles[:, -2:] - 1.0], axis=1))
+
+
+def _is_rippled(profiles: FloatArray) -> bool:
+    """Whether ground and ink, where they are bare, are not quite so."""
+    off = _outermost(profiles)
+    bare, slightly = off <= LARGEST_RIPPLE, off > LEAST_RIPPLE
+    return bool(bare.sum() > PLAIN * bare.size and (bare & slightly).sum() > RIPPLED * bare.size)
+
+
 def _blur(profiles: FloatArray, beside: FloatArray, noise: float) -> float | None:
     """0 where edges are sharp; None where too few are plain."""
     even = EVEN + EVEN_NOISE * noise
-    off = np.concatenate([profiles[:, :2], profiles[:, -2:] - 1.0], axis=1)
-    plain = (np.abs(off) <= even).all(axis=1)
+    plain = (_outermost(profiles) <= even).all(axis=1)
     steps = np.diff(profiles, axis=1)
     plain &= (steps >= -FALLS - FALLS_NOISE * noise).all(axis=1)
     across, along = steps[:, REACH - 1], 0.5 * beside
