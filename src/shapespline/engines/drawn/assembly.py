@@ -16,7 +16,7 @@ from shapespline.engines.drawn.ends import (
     sweep_of,
 )
 from shapespline.engines.drawn.joints import direction_at
-from shapespline.engines.drawn.merging import merged_arcs
+from shapespline.engines.drawn.merging import merged
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.segments import LINE
 from shapespline.values import Arc
@@ -68,7 +68,7 @@ def assembled(model: Model, found: list[Regularity], tolerance: float, told: boo
         if (one.name != "equal-length" or cut.isdisjoint(one.pieces))
         and (one.name in WHOLE or moved.isdisjoint(one.pieces))
     )
-    return merged_arcs(Drawn(tuple(parts), kept, told, model.n_free), closed=model.seen.closed)
+    return merged(Drawn(tuple(parts), kept, told, model.n_free), closed=model.seen.closed)
 
 
 def _element(model: Model, k: int, begin: FloatArray, end: FloatArray) -> DrawnLine | DrawnArc:

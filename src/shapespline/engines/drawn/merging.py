@@ -1,7 +1,7 @@
-"""Neighbouring arcs of one circle are one arc.
+"""Neighbouring arcs of one circle are one arc, neighbours on one line one line.
 
 Segments are found before it is known what is equal: a fillet that was cut in two becomes two arcs
-of the same centre and radius.
+of the same centre and radius, an edge two that are level and meet.
 """
 
 from __future__ import annotations
@@ -12,29 +12,32 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn.parts import DrawnArc
+from shapespline.engines.drawn.parts import DrawnArc, DrawnLine
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.parts import Drawn, Part
     from shapespline.values import Regularity
 
-# Circles are one if their centres and radii differ by no more than this part of the radius, which
-# equations are met to.
-SAME_CIRCLE = 1e-7
+# Circles are one if their centres and radii differ by no more than this part of the radius, lines
+# if their joint is off by no more than this part of the shorter one: equations are met to it.
+SAME = 1e-7
 
 
-def merged_arcs(drawn: Drawn, *, closed: bool) -> Drawn:
-    """The same, with one arc for neighbours of one circle; what they kept of each other is gone."""
+def merged(drawn: Drawn, *, closed: bool) -> Drawn:
+    """The same, with one part for neighbours of one circle or line.
+
+    What they kept of each other is gone.
+    """
     parts: list[Part] = []
     place: list[int] = []
     for part in drawn.parts:
-        whole = _one_arc(parts[-1], part) if parts else None
+        whole = _one(parts[-1], part) if parts else None
         if whole is None:
             parts.append(part)
         else:
             parts[-1] = whole
         place.append(len(parts) - 1)
-    if closed and len(parts) > 1 and (whole := _one_arc(parts[-1], parts[0])) is not None:
+    if closed and len(parts) > 1 and (whole := _one(parts[-1], parts[0])) is not None:
         parts[0] = whole
         del parts[-1]
         place = [0 if k == len(parts) else k for k in place]
@@ -43,9 +46,13 @@ def merged_arcs(drawn: Drawn, *, closed: bool) -> Drawn:
     kept: dict[tuple[str, tuple[int, ...]], Regularity] = {}
     for one in drawn.regularities:
         pieces = tuple(dict.fromkeys(place[k] for k in one.pieces))
-        if len(pieces) > 1 or len(one.pieces) == 1:  # else what two parts of one arc have alike
+        if len(pieces) > 1 or len(one.pieces) == 1:  # else what two parts of one have alike
             kept.setdefault((one.name, pieces), one._replace(pieces=pieces))
     return replace(drawn, parts=tuple(parts), regularities=tuple(kept.values()))
+
+
+def _one(before: Part, after: Part) -> Part | None:
+    return _one_arc(before, after) or _one_line(before, after)
 
 
 def _one_arc(before: Part, after: Part) -> DrawnArc | None:
@@ -55,6 +62,18 @@ def _one_arc(before: Part, after: Part) -> DrawnArc | None:
     a, b = before.arc, after.arc
     off = max(hypot(*np.subtract(a.centre, b.centre)), abs(a.radius - b.radius))
     sweep = a.sweep + b.sweep
-    if off > SAME_CIRCLE * a.radius or a.sweep * b.sweep <= 0 or abs(sweep) >= 2 * np.pi:
+    if off > SAME * a.radius or a.sweep * b.sweep <= 0 or abs(sweep) >= 2 * np.pi:
         return None
     return DrawnArc(replace(a, sweep=sweep), before.begin, after.end)
+
+
+def _one_line(before: Part, after: Part) -> DrawnLine | None:
+    """Two parts as one line, None where they are none or one turns back."""
+    if not (isinstance(before, DrawnLine) and isinstance(after, DrawnLine)):
+        return None
+    a, b = before.end - before.begin, after.end - after.begin
+    longer = max(hypot(*a), hypot(*b))
+    # The joint's distance from the whole line is the cross product over its length.
+    if abs(a[0] * b[1] - a[1] * b[0]) > SAME * min(hypot(*a), hypot(*b)) * longer or a @ b <= 0:
+        return None
+    return DrawnLine(before.begin, after.end)

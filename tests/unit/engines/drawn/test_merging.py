@@ -1,11 +1,11 @@
-"""Neighbouring arcs of one circle are one; what is left keeps what it kept."""
+"""Neighbours on one circle or line are one; what is left keeps what it kept."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.testing import assert_allclose
 
-from shapespline.engines.drawn.merging import merged_arcs
+from shapespline.engines.drawn.merging import merged
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine
 from shapespline.values import Arc, Regularity
 
@@ -34,7 +34,7 @@ def test_a_fillet_cut_in_two_is_one_arc():
         Regularity("equal-radius", (1, 4), 0.5),
         Regularity("equal-radius", (2, 5), 0.6),
     )
-    drawn = merged_arcs(Drawn(tuple(slot(20)), found, True, 9), closed=True)
+    drawn = merged(Drawn(tuple(slot(20)), found, True, 9), closed=True)
     whole = slot()
     assert len(drawn.parts) == 4
     for part, wanted in zip(drawn.parts, whole, strict=True):
@@ -52,11 +52,11 @@ def test_across_the_seam_of_a_closed_outline_alone():
     parts = slot(20)
     turned = (*parts[-1:], *parts[:-1])  # begins within the left arc
     told = (Regularity("tangent", (0, 1), 0.1), Regularity("tangent", (4, 5), 0.2))
-    drawn = merged_arcs(Drawn(turned, told, True, 9), closed=True)
+    drawn = merged(Drawn(turned, told, True, 9), closed=True)
     assert len(drawn.parts) == 4
     assert_allclose(drawn.parts[0].begin, slot()[3].begin, atol=1e-14)
     assert [one.pieces for one in drawn.regularities] == [(0, 1), (3, 0)]
-    assert len(merged_arcs(Drawn(turned, told, True, 9), closed=False).parts) == 5
+    assert len(merged(Drawn(turned, told, True, 9), closed=False).parts) == 5
 
 
 def test_other_circles_other_ways_and_whole_turns_stay():
@@ -66,4 +66,38 @@ def test_other_circles_other_ways_and_whole_turns_stay():
         (arc((0, 0), 0, 200), arc((0, 0), 200, 160)),
     ):
         drawn = Drawn(pair, (), True, 3)
-        assert merged_arcs(drawn, closed=False) is drawn
+        assert merged(drawn, closed=False) is drawn
+
+
+def square(*cuts):
+    """Of side 4, its lower edge cut at some places."""
+    ends = [(0, 0), *((cut, 0) for cut in cuts), (4, 0), (4, 4), (0, 4)]
+    ends = np.array(ends, dtype=float)
+    return [DrawnLine(a, b) for a, b in zip(ends, np.roll(ends, -1, axis=0), strict=True)]
+
+
+def test_an_edge_cut_in_two_is_one_line():
+    found = (
+        Regularity("axis-parallel", (0,), 0.1),
+        Regularity("collinear", (0, 1), 0.2),
+        Regularity("parallel", (1, 3), 0.3),
+    )
+    drawn = merged(Drawn(tuple(square(1)), found, True, 9), closed=True)
+    assert [(*part.begin, *part.end) for part in drawn.parts] == [
+        (*part.begin, *part.end) for part in square()
+    ]
+    assert [(one.name, one.pieces) for one in drawn.regularities] == [
+        ("axis-parallel", (0,)),
+        ("parallel", (0, 2)),
+    ]
+    several = (*square(1, 2, 3)[2:], *square(1, 2, 3)[:2])  # begins within the lower edge
+    assert len(merged(Drawn(several, (), True, 9), closed=True).parts) == 4
+
+
+def test_lines_that_turn_or_turn_back_stay_two():
+    for middle, end in (((2.0, 1e-4), (4.0, 0.0)), ((4.0, 0.0), (2.0, 0.0))):
+        lines = [
+            DrawnLine(np.zeros(2), np.array(middle)),
+            DrawnLine(np.array(middle), np.array(end)),
+        ]
+        assert len(merged(Drawn(tuple(lines), (), True, 9), closed=False).parts) == 2
