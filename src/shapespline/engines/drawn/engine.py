@@ -29,6 +29,7 @@ from shapespline.engines.drawn.parts import Drawn
 from shapespline.engines.drawn.regularities import NAMES, Search
 from shapespline.engines.drawn.repeats import free_runs, rows_repeated
 from shapespline.engines.drawn.segments import (
+    ARC,
     FREE,
     FREE_PARAMETERS,
     PRICE,
@@ -60,6 +61,8 @@ MANY_ELEMENTS, POINTS_EACH = 40, 5
 # Where lines and arcs alone are left, two of them and that part of all are enough (DRA-22).
 ROUGH, ROUGHEST, SAVED, LONG = 3.0, 0.5, 0.03, 25.0
 LEAST_SAVED, SAVED_PART = 6.0, 0.1
+# Nobody draws arcs of so many times the extent of an outline: errors bend its edges (DRA-54).
+IMMENSE = 20.0
 # What such a telling holds in part only gives way to the exact one, unless that is so many times
 # longer, as chords of curves are (DRA-29).
 CHORDS = 1.33
@@ -331,7 +334,7 @@ def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segm
         yield seen, row, False
         return
     again = segmented(rough, row) if row.n_parameters(LONG * seen.pixel) >= LEAST_SAVED else row
-    if _is_shorter(again, row, seen.pixel):
+    if _is_shorter(again, row, seen.pixel) or _is_straighter(again, row, seen):
         long = LONG * seen.pixel
         if row.n_parameters(long) <= CHORDS * again.n_parameters(long):
             yield rough, again, True
@@ -360,6 +363,20 @@ def _nearly_exact(seen: Observed, row: Segments) -> Iterator[tuple[Observed, Seg
     again = segmented(nearly)
     if share(again) == 1.0:
         yield nearly, again, True
+
+
+def _is_straighter(again: Segments, row: Segments, seen: Observed) -> bool:
+    """Whether no more lines and arcs tell what is arcs of immense radius otherwise, by errors."""
+    if len(again.found) > len(row.found) or any(kind == FREE for *_, kind in again.found):
+        return False
+    model, again_model = Model.of(seen, row), Model.of(seen, again)
+    return _n_immense(model) > _n_immense(again_model)
+
+
+def _n_immense(model: Model) -> int:
+    """How many arcs have a radius that nobody draws."""
+    largest = IMMENSE * model.extent
+    return sum(model.kind(k) == ARC and model.x[o + 2] > largest for k, o in model.at.items())
 
 
 def _is_shorter(again: Segments, row: Segments, pixel: float) -> bool:
