@@ -113,14 +113,10 @@ class Softness(NamedTuple):
 SHARP = Softness()
 
 
-def _outermost(profiles: FloatArray) -> FloatArray:
-    """How far the two outermost pixels of ground and of ink are off, shape (n, 4)."""
-    return np.abs(np.concatenate([profiles[:, :2], profiles[:, -2:] - 1.0], axis=1))
-
-
 def _is_rippled(profiles: FloatArray) -> bool:
-    """Whether ground and ink, where they are bare, are not quite so."""
-    off = _outermost(profiles)
+    """Whether ground and ink, where they are bare, are not quite even."""
+    ground, ink = profiles[:, :2], profiles[:, -2:]
+    off = np.abs(np.concatenate([ground - np.median(ground), ink - np.median(ink)], axis=1))
     bare, slightly = off <= LARGEST_RIPPLE, off > LEAST_RIPPLE
     return bool(bare.sum() > PLAIN * bare.size and (bare & slightly).sum() > RIPPLED * bare.size)
 
@@ -128,7 +124,8 @@ def _is_rippled(profiles: FloatArray) -> bool:
 def _blur(profiles: FloatArray, beside: FloatArray, noise: float) -> float | None:
     """0 where edges are sharp; None where too few are plain."""
     even = EVEN + EVEN_NOISE * noise
-    plain = (_outermost(profiles) <= even).all(axis=1)
+    off = np.concatenate([profiles[:, :2], profiles[:, -2:] - 1.0], axis=1)
+    plain = (np.abs(off) <= even).all(axis=1)
     steps = np.diff(profiles, axis=1)
     plain &= (steps >= -FALLS - FALLS_NOISE * noise).all(axis=1)
     across, along = steps[:, REACH - 1], 0.5 * beside

@@ -10,6 +10,7 @@ from PIL import Image
 from scipy.spatial import cKDTree
 from tests.support.rendering import coverage, dark, polygon, tile
 
+from shapespline.studio.examples import example_bytes
 from shapespline.tracing import trace
 from shapespline.tracing.corners import Missing
 from shapespline.tracing.crossings import crossings
@@ -96,3 +97,10 @@ def test_what_a_corner_may_miss(turn, missing, beside, rippled, expected):
     )
     found = Missing(np.array([missing]), np.array([beside]))
     assert found.fits(corners, Softness(rippled=rippled), 0.0).tolist() == [expected]
+
+
+def test_ground_and_ink_beside_their_levels_are_no_ripples():
+    # All pixels of one grey are off by the same part of the contrast.
+    picture = np.asarray(Image.open(io.BytesIO(example_bytes("gear"))))
+    assert not ripples(picture)
+    assert ripples(saved(picture, 90))

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from shapespline.values import Regularity
 
 # Circles are one if their centres and radii differ by no more than this part of the radius, lines
-# if their joint is off by no more than this part of the shorter one: equations are met to it.
+# if their joint is off by no more than this part of the shorter one, which equations are met to
+# (DRA-53).
 SAME = 1e-7
 
 
