@@ -115,6 +115,8 @@ SHARP = Softness()
 
 def _is_rippled(profiles: FloatArray) -> bool:
     """Whether ground and ink, where they are bare, are not quite even."""
+    if not len(profiles):
+        return False
     ground, ink = profiles[:, :2], profiles[:, -2:]
     off = np.abs(np.concatenate([ground - np.median(ground), ink - np.median(ink)], axis=1))
     bare, slightly = off <= LARGEST_RIPPLE, off > LEAST_RIPPLE
