@@ -15,6 +15,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 import shapespline as ss
+from benchmarks.drawn import tables
 from benchmarks.drawn.few_points import fitted, is_outline, is_right, said
 from benchmarks.drawn.found import Found
 from benchmarks.drawn.renderers import RENDERERS
@@ -54,8 +55,8 @@ COUNTS, TOLERANCES = (300, 1000), (None, 0.001, 0.003)
 NOISES = ((0.0002, 200), (0.001, 200), (0.005, 200), (0.002, 400), (0.001, 1000), (0.005, 1000))
 # Noise, points and a tolerance.
 WITHIN = ((0.0002, 400, 0.001), (0.0002, 400, 0.003), (0.0002, 1000, 0.001), (0.0005, 1000, 0.003))
-# Pictures: renderers, pixels, tolerances in pixels.
-PICTURED, PIXELS, IN_PIXELS = ("exact coverage", "Cairo", "JPEG 90"), (128, 256, 512), (None, 0.35)
+# Pictures: renderers and pixels.
+PICTURED, PIXELS = (tables.EXACT, "Cairo", tables.JPEG), (128, 256, 512)
 # Step of a dense sampling, and the part of it that distances are measured from.
 STEP, EVERY = 0.02, 5
 
@@ -144,7 +145,7 @@ def within_table() -> str:
 
 def pictures_table() -> str:
     """Right fits of traced pictures."""
-    cells = [(tolerance, size) for tolerance in IN_PIXELS for size in PIXELS]
+    cells = [(tolerance, size) for tolerance in tables.TOLERANCES for size in PIXELS]
     heads = [f"{'none' if tolerance is None else tolerance}, {size}" for tolerance, size in cells]
     lines = [f"Right of {DRAWS * len(FORMS)} | " + " | ".join(heads)]
     lines.append("|".join(["---"] * (1 + len(cells))))
@@ -156,7 +157,7 @@ def pictures_table() -> str:
                 for size in PIXELS:
                     outlines = placed([outline], size, 0.0, seed=draw)
                     traced = ss.trace(RENDERERS[renderer](outlines, size))
-                    for tolerance in IN_PIXELS:
+                    for tolerance in tables.TOLERANCES:
                         fits = [ss.fit_curve(one, tolerance=tolerance) for one in traced]
                         right[tolerance, size] += len(fits) == 1 and is_outline(fits[0], outline)
             found = " | ".join(map(str, right.values()))

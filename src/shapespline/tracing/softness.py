@@ -41,8 +41,9 @@ SOFT, SCATTERED = 0.75, 0.01
 LEVEL_ACCURACY, SOFT_ACCURACY, UNBOUNDED = 0.07, 0.04, 4 / 3
 # In more noise than this, of the contrast, ink tells no corner from a rounding (TRC-20).
 NOISIEST_CORNER = 0.065
-# Where more than this part of the outermost pixels are off by these parts of the contrast, edges
-# have ripples beside them, as JPEG lets them: of what a renderer draws so many are not (TRC-37).
+# Where more than this part of the outermost pixels are off the usual ground and ink by these parts
+# of the contrast, edges have ripples beside them, as JPEG lets them: those that a renderer draws
+# have not (TRC-37).
 RIPPLED, LEAST_RIPPLE, LARGEST_RIPPLE = 0.035, 0.001, 0.03
 
 

@@ -322,7 +322,7 @@ def _rough(seen: Observed, tolerance: float) -> Observed | None:
 
 
 def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segments, bool]]:
-    """The outline as its picture shows it, or less exact where that is much shorter to tell.
+    """The outline as its picture shows it, or less exact where that is much shorter or straighter.
 
     What is a little shorter counts if it holds as a whole: lines through a bend are, too. What
     tells no drawing may do so if it is taken for less exact: its elements are estimated anew with
