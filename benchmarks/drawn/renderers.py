@@ -47,6 +47,12 @@ def jpeg(picture: Picture, quality: int = 90) -> Picture:
     return np.asarray(Image.open(stream))
 
 
+def enlarged(outlines: Sequence[Outline], size: int, way: Image.Resampling) -> Picture:
+    """By the coverage of pixels twice as wide, and enlarged."""
+    half = [tuple(one.moved(0.5, 0.0, np.zeros(2)) for one in outline) for outline in outlines]
+    return np.asarray(Image.fromarray(exact(half, size // 2)).resize((size, size), way))
+
+
 def scanned(outlines: Sequence[Outline], size: int, blur: float, grain: float) -> Picture:
     """Dark grey on light grey, spread by a lens (pixels), under grain (of 255)."""
     sharp = 20 + 0.8 * exact(outlines, size).astype(float)
@@ -193,6 +199,11 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "Cairo": by_cairo,
     "Chromium": by_browser,
     "JPEG 90": lambda outlines, size: jpeg(exact(outlines, size)),
+    "enlarged twice": lambda outlines, size: enlarged(outlines, size, Image.Resampling.BICUBIC),
+    "enlarged twice, JPEG 90": lambda outlines, size: jpeg(
+        enlarged(outlines, size, Image.Resampling.BICUBIC)
+    ),
+    "copied twice": lambda outlines, size: enlarged(outlines, size, Image.Resampling.NEAREST),
     "blurred by 1": lambda outlines, size: scanned(outlines, size, blur=1.0, grain=0.5),
     "blurred by 1.5": lambda outlines, size: scanned(outlines, size, blur=1.5, grain=0.5),
     "scanned, JPEG 90": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.0, grain=8.0)),

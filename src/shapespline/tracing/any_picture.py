@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, cast
 from PIL import Image
 
 from shapespline.errors import FormatError, InvalidInputError
+from shapespline.geometry import scaled
 from shapespline.monitor import silent
 from shapespline.tracing.colors import checked_count, color_areas
 from shapespline.tracing.outlines import SELECTIONS, ink_outlines
@@ -109,7 +110,9 @@ def trace(
         along it; what ends in its pixels ends there. Each contour has the ``level_line`` that it
         was read along, and the ``accuracy`` that drawings with known outlines have been found with:
         0.02 pixels where the grey tells the edge, 0.07 where only the level does, 0.25 where there
-        is no grey. What was left out as noise is in ``left_out``.
+        is no grey. What was left out as noise is in ``left_out``. Of a picture that was made 2, 3
+        or 4 times as large, by copies of its pixels or smoothly, all this is that of the smaller
+        one, times as much.
 
     Raises
     ------
@@ -167,11 +170,11 @@ def trace(
     with contextlib.suppress(TypeError, ValueError):  # a window, as a command line says it
         local = float(local)
     seeing = Seeing(level, polarity, channel, color, invert, cast("Local", local), blur, crop)
-    shape = ink_outlines(_pixels(image, say), seeing, contours, min_area, say)
-    if not centerline:
-        return shape
-    say(f"looking for the centre lines of {len(shape)} outlines")
-    return centerlines(shape)
+    shape, factor = ink_outlines(_pixels(image, say), seeing, contours, min_area, say)
+    if centerline:
+        say(f"looking for the centre lines of {len(shape)} outlines")
+        shape = centerlines(shape)
+    return cast("Shape", scaled(shape, factor, shape.unit)) if factor > 1 else shape
 
 
 def _pixels(image: ArrayLike | Image.Image | str | os.PathLike[str], say: Say) -> ArrayLike:

@@ -34,6 +34,10 @@ class Field:
         Standard deviation of the values where the picture is even, as a part of the contrast.
     middle : float
         Half-way between the values of ink and ground: the cut lies beside it, where no pixel does.
+    scale : int
+        How wide a pixel is in those of the picture, which was enlarged (TRC-38).
+    interpolated : bool
+        Whether that was done by more than copies of pixels.
     """
 
     values: Layer
@@ -42,6 +46,8 @@ class Field:
     contrast: float
     noise: float
     middle: float
+    scale: int = 1
+    interpolated: bool = False
 
     @property
     def shape(self) -> tuple[int, int]:

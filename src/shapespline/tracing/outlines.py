@@ -49,8 +49,11 @@ def ink_outlines(
     contours: Selection = "all",
     min_area: float | None = None,
     say: Say = silent,
-) -> Shape:
-    """Outlines of ink, between the pixels; as :func:`shapespline.trace` tells."""
+) -> tuple[Shape, int]:
+    """Outlines of ink, between the pixels; as :func:`shapespline.trace` tells.
+
+    Of a picture that was enlarged they are those of the smaller one: the factor is returned beside.
+    """
     field, found = seeing.field(image, say)
     places = found.places(field.shape[0], level_shares(field, found))
     areas = loop_areas(places, found.loops)
@@ -68,14 +71,14 @@ def ink_outlines(
             "the outlines of the picture enclose nothing; choose another level or channel"
         )
     specks = [places[found.loops[index]] for index in np.flatnonzero(~selected)]
-    return _shape(lines, specks, field)
+    return _shape(lines, specks, field), field.scale
 
 
 def _kept(
     field: Field, found: Crossings, places: FloatArray, areas: FloatArray, min_area: float | None
 ) -> BoolArray:
     """Which outlines are more than specks, at least one; a warning tells of the others."""
-    sizes = np.abs(areas)
+    sizes = np.abs(areas) * field.scale**2
     if min_area is not None:
         kept = sizes >= min_area
         if not kept.any():

@@ -16,6 +16,7 @@ from shapespline.errors import (
 )
 from shapespline.monitor import silent
 from shapespline.tracing.crossings import Crossings, crossings
+from shapespline.tracing.enlarged import Enlargement
 from shapespline.tracing.falloff import without_falloff
 from shapespline.tracing.field import Field
 from shapespline.tracing.inks import cut_between_inks, softness_of
@@ -97,6 +98,11 @@ class Seeing:
             pixels = evened(pixels, say)
         say("looking for ink")
         field, found = self._cut(pixels, say)
+        enlarged = Enlargement.of(field)
+        if enlarged.factor > 1:
+            say(f"looking at the picture as it was before it was enlarged by {enlarged.factor}")
+            field = enlarged.undone(field)
+            found = crossings(field, say)
         between = cut_between_inks(field, found) if free else None
         if between is None:
             return field, found

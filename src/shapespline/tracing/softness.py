@@ -71,7 +71,9 @@ class Softness(NamedTuple):
             for side in (-1, 1)
         )
         profiles = profiles_across(field, part) / ink[:, None]
-        return cls.told(profiles, (behind - before) / ink, field.noise)
+        soft = cls.told(profiles, (behind - before) / ink, field.noise)
+        # What interpolation takes beyond ground and ink is cut off at black and white (TRC-38).
+        return soft._replace(rippled=soft.rippled or field.interpolated)
 
     @classmethod
     def told(cls, profiles: FloatArray, beside: FloatArray, noise: float) -> Softness:
