@@ -53,6 +53,15 @@ def enlarged(outlines: Sequence[Outline], size: int, way: Image.Resampling) -> P
     return np.asarray(Image.fromarray(exact(half, size // 2)).resize((size, size), way))
 
 
+def sampled(outlines: Sequence[Outline], size: int, each: int) -> Picture:
+    """By so many by so many samples in each pixel."""
+    large = [
+        tuple(one.moved(float(each), 0.0, np.zeros(2)) for one in outline) for outline in outlines
+    ]
+    hit = (coverage(large, each * size) >= 0.5).reshape(size, each, size, each)
+    return np.rint(255 * (1 - hit.mean(axis=(1, 3)))).astype(np.uint8)
+
+
 def scanned(outlines: Sequence[Outline], size: int, blur: float, grain: float) -> Picture:
     """Dark grey on light grey, spread by a lens (pixels), under grain (of 255)."""
     sharp = 20 + 0.8 * exact(outlines, size).astype(float)
@@ -199,6 +208,8 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "Cairo": by_cairo,
     "Chromium": by_browser,
     "JPEG 90": lambda outlines, size: jpeg(exact(outlines, size)),
+    "2 x 2 samples": lambda outlines, size: sampled(outlines, size, 2),
+    "4 x 4 samples": lambda outlines, size: sampled(outlines, size, 4),
     "enlarged twice": lambda outlines, size: enlarged(outlines, size, Image.Resampling.BICUBIC),
     "enlarged twice, JPEG 90": lambda outlines, size: jpeg(
         enlarged(outlines, size, Image.Resampling.BICUBIC)

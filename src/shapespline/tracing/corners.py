@@ -58,6 +58,9 @@ AROUND, ROUNDING, TIP, UNCERTAIN, UNCERTAIN_BLUR = 3, 0.5, 1.5, 0.03, 0.25
 # deviations in each are not told of the sum, but no more than a rounding of this radius takes
 # (TRC-37).
 BESIDE, RIPPLES, RIPPLED_OFF = 2, 5.0, 1.5
+# Few greys leave the sum uncertain by so many square roots of their step, and no more than such a
+# rounding takes (TRC-39).
+FEW_GREYS = 0.6
 # Corners whose ink is added up at once.
 TOGETHER = 10_000
 # From which sides corners are looked for: how far they are disturbed, and how far they go.
@@ -271,10 +274,10 @@ class Missing(NamedTuple):
         """Which corners miss no more than is not told, in noise of the contrast."""
         side = 2 * reach_of(soft) + 1
         uncertain = 3 * side * np.asarray(noise)
-        if soft.rippled:
-            ripples = RIPPLES * side * self.beside
-            most = taken_off(corners.turns, RIPPLED_OFF)
-            uncertain = np.maximum(uncertain, np.minimum(ripples, most))
+        ripples = RIPPLES * side * self.beside if soft.rippled else 0.0
+        ripples = np.maximum(ripples, FEW_GREYS * soft.step**0.5)
+        most = taken_off(corners.turns, RIPPLED_OFF)
+        uncertain = np.maximum(uncertain, np.minimum(ripples, most))
         uncertain = uncertain + UNCERTAIN + UNCERTAIN_BLUR * soft.blur
         return np.asarray(np.abs(self.ink) <= rounded_off(corners) + uncertain)
 

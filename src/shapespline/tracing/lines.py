@@ -67,6 +67,7 @@ def drawn_lines(
     midway = np.abs(shares - 0.5) < 1e-9
     # Edges that blur or noise alone leave on the level line have corners, too (TRC-20).
     on_level_too = soft.shows_corners(field.noise)
+    drawn = max(DRAWN_ACCURACY, soft.coarseness)
     outlines, level_lines, accuracies, cornered = [], [], [], []
     begin = 0
     for loop, ink in zip(loops, inks.tolist(), strict=True):
@@ -78,14 +79,12 @@ def drawn_lines(
         upright = part.upright[own]
         # Without an inner crossing it is the rim alone.
         known = not inner.any() or _is_known(edges.known[own][inner], across[inner])
-        accuracy = DRAWN_ACCURACY if known else soft.accuracy
+        accuracy = drawn if known else soft.accuracy
         one_bit = _is_one_bit(midway[own][inner], upright[inner])
         if one_bit:
             accuracy = ONE_BIT_ACCURACY
         points = places_drawn[own]
-        if len(loop) >= FEW_POINTS and (
-            accuracy == DRAWN_ACCURACY or (soft.on_level and ink != 1.0)
-        ):
+        if len(loop) >= FEW_POINTS and (accuracy == drawn or (soft.on_level and ink != 1.0)):
             told = (across >= LEAST_ACROSS) | ~inner
             points = _bent(points[told], part.upright[own][told], edges.known[own][told])
             points = np.clip(points, 0, (width, height))

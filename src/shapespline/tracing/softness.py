@@ -45,17 +45,26 @@ NOISIEST_CORNER = 0.065
 # of the contrast, edges have ripples beside them, as JPEG lets them: those that a renderer draws
 # have not (TRC-37).
 RIPPLED, LEAST_RIPPLE, LARGEST_RIPPLE = 0.035, 0.001, 0.03
+# Few greys are multiples of an equal step, at most so many of it, but for a rounding; this part of
+# the greys has to be such, and this part of the multiples has to be seen. Edges scatter by so many
+# square roots of the step (TRC-39).
+MOST_STEPS, ROUNDED, ARE_STEPS, SEEN, SCATTER = 25, 0.004, 0.95, 0.75, 0.16
+# With a larger step they do so by more than what is drawn exactly is told by (TRC-39).
+COARSE = 0.1
 
 
 class Softness(NamedTuple):
     """Standard deviations in pixels: of the blur, and of how noise scatters a level line.
 
     Both are 0 where the grey does not tell. ``rippled`` are sharp edges with ripples beside them.
+    ``step`` is what the few greys of sharp edges are multiples of, of the contrast: those edges
+    scatter, too.
     """
 
     blur: float = 0.0
     scatter: float = 0.0
     rippled: bool = False
+    step: float = 0.0
 
     @classmethod
     def of(cls, field: Field, found: Crossings, inks: FloatArray) -> Softness:
@@ -89,12 +98,14 @@ class Softness(NamedTuple):
             Of the contrast.
         """
         blur = _blur(profiles, beside, noise)
+        step = 0.0 if blur else _step(profiles)
         rippled = not blur and _is_rippled(profiles)
         if blur is None:
-            return cls(rippled=rippled)
+            return cls(0.0, SCATTER * step**0.5, rippled, step)
         # What noise is over the slope of an edge.
         slope = 1.0 / np.sqrt(2 * np.pi * (blur**2 + WITHIN_PIXEL))
-        return cls(blur, noise * float(np.sqrt(BETWEEN_PIXELS) / slope), rippled)
+        scatter = noise * float(np.sqrt(BETWEEN_PIXELS) / slope)
+        return cls(blur, max(scatter, SCATTER * step**0.5), rippled, step)
 
     @property
     def on_level(self) -> bool:
@@ -105,6 +116,11 @@ class Softness(NamedTuple):
     def accuracy(self) -> float:
         """Of level lines, pixels."""
         return max(SOFT_ACCURACY if self.on_level else LEVEL_ACCURACY, UNBOUNDED * self.scatter)
+
+    @property
+    def coarseness(self) -> float:
+        """How far edges lie from where few greys put them, pixels; 0 where greys tell enough."""
+        return SCATTER * self.step**0.5 if self.step > COARSE else 0.0
 
     def shows_corners(self, noise: float) -> bool:
         """Whether corners of level lines are told from roundings, in noise of the contrast."""
@@ -124,6 +140,25 @@ def _is_rippled(profiles: FloatArray) -> bool:
     off = np.abs(np.concatenate([ground - np.median(ground), ink - np.median(ink)], axis=1))
     bare, slightly = off <= LARGEST_RIPPLE, off > LEAST_RIPPLE
     return bool(bare.sum() > PLAIN * bare.size and (bare & slightly).sum() > RIPPLED * bare.size)
+
+
+def _step(profiles: FloatArray) -> float:
+    """What greys are multiples of, of the contrast; 0 where they are many."""
+    if not len(profiles):
+        return 0.0
+    ground, ink = np.median(profiles[:, :2]), np.median(profiles[:, -2:])
+    if ink <= ground:
+        return 0.0
+    between = ((profiles - ground) / (ink - ground)).ravel()
+    grey = between[np.abs(between - 0.5) < 0.5 - 2 * ROUNDED]
+    if not len(grey):
+        return 0.0
+    for count in range(3, MOST_STEPS + 1):
+        nearest = np.rint(grey * count)
+        if (np.abs(grey - nearest / count) <= ROUNDED).mean() >= ARE_STEPS:
+            seen = np.unique(nearest[(nearest > 0) & (nearest < count)])
+            return 1.0 / count if len(seen) >= SEEN * (count - 1) else 0.0
+    return 0.0
 
 
 def _blur(profiles: FloatArray, beside: FloatArray, noise: float) -> float | None:

@@ -50,8 +50,8 @@ def widest(best: Estimated) -> Estimated:
 def _read(model: Model, rows: Iterable[Segments], *, wide: bool) -> Iterator[Estimated]:
     """The readings of rows that hold as they are."""
     for row in rows:
-        found = estimated(model, row, np.inf, wide=wide)
-        if found is None or found.model.row is not row:
+        found = estimated(model, row, np.inf, wide=wide, whole=True)
+        if found is None:
             continue
         # Without what speaks for it all that noise allows would make anything cheap.
         if found.told or (is_short(found.model, np.inf) and not wide):

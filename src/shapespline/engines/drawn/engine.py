@@ -59,8 +59,11 @@ MANY_ELEMENTS, POINTS_EACH = 40, 5
 # parameters a pixel: some renderers draw curves as polygons. Never by more than that part of a
 # pixel in the mean: not one of one bit. A free-form run counts once for so many pixels (DRA-13).
 # Where lines and arcs alone are left, two of them and that part of all are enough (DRA-22).
-ROUGH, ROUGHEST, SAVED, LONG = 3.0, 0.5, 0.03, 25.0
+ROUGH, ROUGHEST, SAVED, LONG = 3.0, 0.3, 0.03, 25.0
 LEAST_SAVED, SAVED_PART = 6.0, 0.1
+# Where a tolerance or that part leaves room for less, as much as they do, but at least so much
+# (DRA-55).
+LEAST_ROUGH = 1.2
 # Nobody draws arcs of so many times the extent of an outline: errors bend its edges (DRA-54).
 IMMENSE = 20.0
 # What such a telling holds in part only gives way to the exact one, unless that is so many times
@@ -279,8 +282,8 @@ def _of_row(
         best = settled(best, tolerance)
     as_read = best is not None and best.model.row is model.row
     for repeated_row in rows_repeated(seen, model.row if best is None else best.model.row):
-        other = estimated(model, repeated_row, tolerance)
-        if other is None or other.model.row is not repeated_row:
+        other = estimated(model, repeated_row, tolerance, whole=True)
+        if other is None:
             continue
         if best is None or _is_preferred(other, best):
             best = other
@@ -318,7 +321,8 @@ def _is_preferred(alike: Estimated, best: Estimated) -> bool:
 def _rough(seen: Observed, tolerance: float) -> Observed | None:
     """A picture's outline taken for less exact, where a tolerance leaves room for that."""
     room = min(tolerance, ROUGHEST * seen.pixel)
-    return seen.rougher(ROUGH) if ROUND * ROUGH * seen.largest_deviation <= room else None
+    rough = min(ROUGH, room / (ROUND * seen.largest_deviation))
+    return seen.rougher(rough) if seen.pixel and rough >= LEAST_ROUGH else None
 
 
 def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segments, bool]]:

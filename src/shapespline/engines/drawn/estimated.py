@@ -78,11 +78,12 @@ class Estimated(NamedTuple):
 
 
 def estimated(
-    model: Model, row: Segments, tolerance: float, *, wide: bool = False
+    model: Model, row: Segments, tolerance: float, *, wide: bool = False, whole: bool = False
 ) -> Estimated | None:
     """The elements of segments under their regularities, those that fit badly left out.
 
-    ``wide`` takes what noise allows, not only what is nearly met (DRA-48).
+    ``wide`` takes what noise allows, not only what is nearly met (DRA-48). ``whole`` leaves none
+    out: None where one fits badly.
     """
     seen, ends, n_wrong = model.seen, model.ends, 0
     while n_wrong < min(len(row.found), MOST_WRONG):
@@ -98,6 +99,8 @@ def estimated(
                 return Estimated(model, found, told, wide)
             if not told and not may_be_short(model, tolerance):
                 return None
+        if whole:
+            return None
         row, n_wrong = supported(_without(model, bad, tolerance), seen.closed), n_wrong + len(bad)
     return None
 
@@ -111,10 +114,8 @@ def settled(best: Estimated, tolerance: float) -> Estimated:
     row = shared_anew(best.model).row
     if row is best.model.row:
         return best
-    other = estimated(best.model, row, tolerance, wide=best.wide)
-    if other is None or other.model.row is not row or other.cost >= best.cost:
-        return best
-    return other
+    other = estimated(best.model, row, tolerance, wide=best.wide, whole=True)
+    return best if other is None or other.cost >= best.cost else other
 
 
 def begun(best: Estimated, tolerance: float) -> Estimated:
@@ -122,8 +123,8 @@ def begun(best: Estimated, tolerance: float) -> Estimated:
     row = without_beginnings(best.model.row, best.model.seen)
     if row is best.model.row:
         return best
-    other = estimated(best.model, row, tolerance, wide=best.wide)
-    if other is None or other.model.row is not row:
+    other = estimated(best.model, row, tolerance, wide=best.wide, whole=True)
+    if other is None:
         return best
     return settled(other, tolerance)._replace(told=best.told)
 
