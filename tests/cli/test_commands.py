@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from tests.support.command_line import one_line
 from tests.support.places import DATA
 from tests.support.shapes import flower
@@ -144,6 +145,17 @@ def test_repeated_points_are_said(shapespline, tmp_path):
     code, _, err = shapespline("fit", outline, "-n", 20, "-o", output)
     assert code == 0
     assert err == "shapespline: dropped 620 of 1240 points: equal to the point before them\n"
+
+
+def test_what_holds_for_several_outlines_is_said_once(shapespline, tmp_path):
+    y, x = np.mgrid[:40, :80] + 0.5
+    discs = np.minimum(np.hypot(x - 20, y - 20), np.hypot(x - 60, y - 20)) < 14
+    Image.fromarray(np.where(discs, 0, 255).astype(np.uint8)).save(tmp_path / "discs.png")
+    given = [str(tmp_path / "discs.png"), "-o", str(tmp_path / "discs.svg")]
+    code, _, err = shapespline("fit", *given, "--tolerance", "0.35")
+    assert code == 0
+    assert err.count("the picture tells an outline to 0.62 only") == 1
+    assert "--tolerance 0.66 or more" in err
 
 
 def test_version_loads_nothing():

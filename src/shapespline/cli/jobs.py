@@ -69,7 +69,8 @@ def _guarded(work: Work, source: Path, target: Path) -> Report:
             report = work(source, target)
         except (ss.ShapesplineError, OSError, MemoryError) as error:
             report = Report(str(source), error=" ".join(str(error).split()) or type(error).__name__)
-    report.remarks[:0] = [str(warning.message) for warning in caught]
+    # What holds for several outlines is said once.
+    report.remarks[:0] = dict.fromkeys(str(warning.message) for warning in caught)
     return report
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from shapespline.analysis import largest_bulge
 from shapespline.engines.drawn import NAMES
-from shapespline.errors import SparsePointsWarning, caller_level
+from shapespline.errors import PictureWarning, SparsePointsWarning, caller_level
 from shapespline.fitting.settings import DEFAULT_METHOD
 
 if TYPE_CHECKING:
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 # A smooth curve may pass its points by a tolerance on one side, their chords by one on the other.
 SPARSE = 2.0
+# What is nearer to a traced outline than so many times its accuracy follows its errors (FIT-41).
+FOLLOWED = 2.5
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,21 @@ class Within:
             SparsePointsWarning,
             stacklevel=caller_level(),
         )
+
+    def warn_of_errors(self, contour: Contour) -> None:
+        """Say so if a picture tells the contour less exactly than the curve is to follow it."""
+        if contour.level_line is None or not contour.accuracy:
+            return
+        told = FOLLOWED * contour.accuracy
+        if self.tolerance <= told:
+            warnings.warn(
+                f"the picture tells an outline to {told:.2g} only: a curve within"
+                f" tolerance={self.tolerance:.3g} follows the steps of its pixels or its grain by"
+                " many pieces; leave the tolerance out, or give"
+                f" tolerance={1.05 * told:.2g} or more",
+                PictureWarning,
+                stacklevel=caller_level(),
+            )
 
 
 @dataclass(frozen=True)

@@ -127,6 +127,7 @@ class Request:
         request = request.without_outliers() if settings.outliers else request
         if isinstance(request.goal, Within) and not request.style.names_corners:
             request.goal.warn_of_sparse(request.contour)
+            request.goal.warn_of_errors(request.contour)
         if isinstance(settings.tolerance, str) and len(request.left_out):
             request = replace(request, goal=_goal(settings, request.contour))
         return request.checked()
