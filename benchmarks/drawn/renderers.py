@@ -62,6 +62,11 @@ def sampled(outlines: Sequence[Outline], size: int, each: int) -> Picture:
     return np.rint(255 * (1 - hit.mean(axis=(1, 3)))).astype(np.uint8)
 
 
+def in_light(outlines: Sequence[Outline], size: int) -> Picture:
+    """By the coverage of each pixel, ink and ground mixed as light, not as values."""
+    return np.rint(255 * (1 - coverage(outlines, size)) ** (1 / 2.2)).astype(np.uint8)
+
+
 def scanned(outlines: Sequence[Outline], size: int, blur: float, grain: float) -> Picture:
     """Dark grey on light grey, spread by a lens (pixels), under grain (of 255)."""
     sharp = 20 + 0.8 * exact(outlines, size).astype(float)
@@ -210,6 +215,7 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "JPEG 90": lambda outlines, size: jpeg(exact(outlines, size)),
     "2 x 2 samples": lambda outlines, size: sampled(outlines, size, 2),
     "4 x 4 samples": lambda outlines, size: sampled(outlines, size, 4),
+    "linear light": in_light,
     "enlarged twice": lambda outlines, size: enlarged(outlines, size, Image.Resampling.BICUBIC),
     "enlarged twice, JPEG 90": lambda outlines, size: jpeg(
         enlarged(outlines, size, Image.Resampling.BICUBIC)

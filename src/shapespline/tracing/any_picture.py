@@ -57,7 +57,8 @@ def trace(
         ``blur`` and ``colors``), so that ``numpy.memmap`` serves for what does not fit the memory.
     level : float, optional
         Where to cut, in the unit of the image (0 to 255 for 8 bits); pixels at or above it are
-        light. Otsu's level if not given.
+        light. Otsu's level if not given; what shows to have been mixed as light is then looked at
+        as light.
     polarity : {"auto", "dark", "light"}
         Whether the shape is darker or lighter than the level. "auto": the background is what
         most of the image's rim is, what shows in the corners of a figure that fills the image if

@@ -50,7 +50,7 @@ class Enlargement(NamedTuple):
         Examples
         --------
         >>> from shapespline.tracing.field import Field
-        >>> small = np.clip(np.hypot(*np.mgrid[-9:10, -9:10]) - 5.5, 0.0, 1.0)
+        >>> small = np.clip(np.hypot(*np.mgrid[-9.3:9, -8.8:10]) - 5.5, 0.0, 1.0)
         >>> Enlargement.of(Field(Layer(small), 0.51, False, 1.0, 0.0, 0.5)).factor
         1
         >>> large = np.kron(small, np.ones((3, 3)))

@@ -28,6 +28,7 @@ from shapespline.tracing.lighting import (
     evenly_lit,
     part_along_nothing,
 )
+from shapespline.tracing.linear_light import in_linear_light
 from shapespline.tracing.pixels import (
     CHANNELS,
     STRONG,
@@ -119,6 +120,11 @@ class Seeing:
             level = halfway_to_other(values, full_scale(pixels))
         field = cut_field(values, light, level)
         found = crossings(field, say)
+        if level is None and not (differs or self.blur or has_alpha(pixels)):
+            linear = in_linear_light(field, found, full_scale(pixels))
+            if linear is not None:
+                say("looking at the picture as light, which its ink and ground were mixed as")
+                return linear, crossings(linear, say)
         if differs and self.channel == "auto" and self.color is None:
             return self._by_lightness(pixels, field, found, say)
         if self.local == "off" or self.level is not None or differs:
