@@ -33,8 +33,8 @@ WITHIN, COPIED, SMOOTH = 0.6, 0.15, {2: 0.48, 3: 0.4, 4: 0.3}
 # Grey has these parts of the contrast, and this part of the edges has it, of so many kinds: of
 # blocks of few colours the corners tell more than their middles would (TRC-38).
 GREY, GREY_PART, KINDS = (0.1, 0.9), 0.25, 8
-# Blocks along the shorter side, at least; pixels that tell (TRC-38).
-FEWEST_BLOCKS, SAMPLE = 8, 20_000
+# Blocks along the shorter side, at least; pixels and rows or columns that tell (TRC-38).
+FEWEST_BLOCKS, SAMPLE, LINES = 8, 20_000, 64
 
 
 class Enlargement(NamedTuple):
@@ -111,12 +111,16 @@ class Enlargement(NamedTuple):
 
 def _differences(values: Layer, order: int) -> list[FloatArray]:
     """Sums of squares of differences that begin at each column, and at each row."""
-    step = max(1, round(values.size / SAMPLE))
     found = []
-    for sample in (values[::step], values[:, ::step].T):
+    for sample in (values[:: _step(values, 0)], values[:, :: _step(values, 1)].T):
         lines: NDArray[Any] = np.ascontiguousarray(sample, dtype=np.float64)
         found.append((np.diff(lines, n=order, axis=1) ** 2).sum(axis=0))
     return found
+
+
+def _step(values: Layer, axis: int) -> int:
+    """From one row or column that is looked at to the next."""
+    return max(1, min(round(values.size / SAMPLE), values.shape[axis] // LINES))
 
 
 def _within(sums: Sequence[FloatArray], factor: int, begins: range) -> tuple[float, float]:
@@ -136,8 +140,7 @@ def _within(sums: Sequence[FloatArray], factor: int, begins: range) -> tuple[flo
 
 def _is_grey(field: Field) -> bool:
     """Whether many pixels beside edges are neither ground nor ink, and not of a few colours."""
-    step = max(1, round(field.values.size / SAMPLE))
-    rows = np.arange(0, field.shape[0], step)
+    rows = np.arange(0, field.shape[0], _step(field.values, 0))
     part = field.coverage(rows[:, None], np.arange(field.shape[1])[None, :])
     low, high = np.minimum(part[:, :-1], part[:, 1:]), np.maximum(part[:, :-1], part[:, 1:])
     beside = (low < 0.5) & (high > 0.5)
