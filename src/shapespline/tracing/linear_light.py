@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shapespline.tracing.edges import EVEN, REACH, places_across, profiles_across
-from shapespline.tracing.inks import softness_of
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import noise_deviation, picture_level
 
@@ -57,9 +56,6 @@ def in_linear_light(field: Field, found: Crossings, full: float) -> Field | None
     bends = _bends(field, part, fours)
     telling = (np.abs(bends) < CORNER) & (np.abs(bends) > LEVEL)
     if telling.sum() < ENOUGH or _size(bends[telling]) < WAVY:
-        return None
-    soft = softness_of(field, found)
-    if soft.blur or soft.step or soft.rippled:
         return None
     ways = []
     for power in POWERS:

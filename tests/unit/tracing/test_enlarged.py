@@ -12,7 +12,9 @@ from tests.support.rendering import coverage, polygon
 
 import shapespline as ss
 from shapespline.tracing import trace
+from shapespline.tracing.crossings import crossings
 from shapespline.tracing.enlarged import Enlargement
+from shapespline.tracing.inks import softness_of
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.seeing import Seeing, cut_field
 
@@ -70,6 +72,24 @@ def test_level_strokes_tell_nothing():
 
 def test_a_part_that_blocks_do_not_fill_is_not_undone():
     assert told(enlarged(SMALL, 3, WAYS.BICUBIC)[:-1]).factor == 1
+
+
+@pytest.mark.parametrize("factor", [2, 3, 4])
+@pytest.mark.parametrize("way", [WAYS.BILINEAR, WAYS.BICUBIC])
+def test_the_small_picture_comes_back(factor, way):
+    field = Enlargement(factor).undone(cut_field(Layer(enlarged(SMALL, factor, way)), light=False))
+    off = field.values[:] - SMALL
+    # Neither to one side nor to the other, by a hundredth of a pixel: values are rounded; and no
+    # softer than linear ways leave it.
+    for places in np.mgrid[:84, :84]:
+        assert np.abs((places * off).sum() / (255.0 - SMALL).sum()) < 0.01
+    assert softness_of(field, crossings(field)).blur == 0.0
+
+
+@pytest.mark.parametrize("way", [WAYS.NEAREST, *SMOOTH])
+def test_only_interpolation_ripples(way):
+    field, found = Seeing().field(enlarged(SMALL, 2, way))
+    assert softness_of(field, found).rippled == (way != WAYS.NEAREST)
 
 
 @pytest.mark.parametrize("factor", [2, 3, 4])
