@@ -63,7 +63,10 @@ def logo() -> Image.Image:
 
 def ours(source: Path, target: Path) -> None:
     """Traced and fitted."""
-    ss.write(target, ss.fit_shape(ss.read(source), tolerance=TOLERANCE))
+    with warnings.catch_warnings():
+        # The smallest letters are told to a little more than the tolerance.
+        warnings.simplefilter("ignore", ss.PictureWarning)
+        ss.write(target, ss.fit_shape(ss.read(source), tolerance=TOLERANCE))
 
 
 def potrace(source: Path, target: Path) -> None:

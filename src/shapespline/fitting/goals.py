@@ -46,7 +46,7 @@ class Within:
         if contour.level_line is None or not contour.accuracy:
             return
         told = FOLLOWED * contour.accuracy
-        if self.tolerance <= told:
+        if self.tolerance < told:
             warnings.warn(
                 f"the picture tells an outline to {told:.2g} only: a curve within"
                 f" tolerance={self.tolerance:.3g} follows the steps of its pixels or its grain by"
