@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shapespline.tracing.edges import EVEN, REACH, places_across, profiles_across
+from shapespline.tracing.inks import softness_of
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import noise_deviation, picture_level
 
@@ -56,6 +57,8 @@ def in_linear_light(field: Field, found: Crossings, full: float) -> Field | None
     bends = _bends(field, part, fours)
     telling = (np.abs(bends) < CORNER) & (np.abs(bends) > LEVEL)
     if telling.sum() < ENOUGH or _size(bends[telling]) < WAVY:
+        return None
+    if softness_of(field, found).rippled:  # which wave, too
         return None
     ways = []
     for power in POWERS:
