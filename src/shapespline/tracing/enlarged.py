@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from shapespline.tracing.layer import STRIP, Layer, strips
-from shapespline.tracing.level import noise_deviation, picture_level
+from shapespline.tracing.level import with_values
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -98,15 +98,8 @@ class Enlargement(NamedTuple):
                 steps = np.diff(side, axis=0)
                 side[:-1] += -0.5 * spread * steps
                 side[1:] += 0.5 * spread * steps
-        values = Layer(small)
-        return replace(
-            field,
-            values=values,
-            cut=picture_level(values, field.middle).cut,
-            noise=noise_deviation(values, field.contrast) / field.contrast,
-            scale=factor,
-            interpolated=not self.copied,
-        )
+        found = with_values(field, Layer(small))
+        return replace(found, scale=factor, interpolated=not self.copied)
 
 
 def _differences(values: Layer, order: int) -> list[FloatArray]:

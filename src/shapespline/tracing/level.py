@@ -12,6 +12,7 @@ References
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -22,6 +23,7 @@ from shapespline.tracing.layer import Layer, strips
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from shapespline.tracing.field import Field
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # Neighbours are even if they differ by no more than this part of the range of values.
@@ -147,6 +149,16 @@ def noise_deviation(values: Layer, contrast: float) -> float:
                 bends = steps[:, gap:] - steps[:, :-gap]
                 found.append(float(np.median(np.abs(bends[even]))))
     return max(found) / (_NORMAL_MEDIAN * _SECOND_DIFFERENCE)
+
+
+def with_values(field: Field, values: Layer) -> Field:
+    """Ink and ground as they are known, in other pixels: cut off these, and their noise."""
+    return replace(
+        field,
+        values=values,
+        cut=picture_level(values, field.middle).cut,
+        noise=noise_deviation(values, field.contrast) / field.contrast,
+    )
 
 
 def halfway_to_other(values: Layer, full: float) -> float | None:

@@ -18,7 +18,7 @@ import numpy as np
 from shapespline.tracing.edges import EVEN, REACH, places_across, profiles_across
 from shapespline.tracing.inks import softness_of
 from shapespline.tracing.layer import Layer
-from shapespline.tracing.level import noise_deviation, picture_level
+from shapespline.tracing.level import with_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -71,11 +71,7 @@ def in_linear_light(field: Field, found: Crossings, full: float) -> Field | None
     if left > LEFT:
         return None
     light = _decoded(field, full, power)
-    return replace(
-        light,
-        cut=picture_level(light.values, light.middle).cut,
-        noise=noise_deviation(light.values, light.contrast) / light.contrast,
-    )
+    return with_values(light, light.values)
 
 
 def _decoded(field: Field, full: float, power: float) -> Field:

@@ -41,24 +41,15 @@ def test_values_that_are_mixed_are_left_as_they_are():
         assert field.values[:1, :1].dtype == np.uint8
 
 
-def disc_of_four_samples():
-    """As graphics cards draw it: such greys wave, too."""
-    y, x = np.mgrid[:120, :120].astype(float)
-    places = [(0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875)]
-    hit = [np.hypot(x + a - MIDDLE[0], 120 - y - b - MIDDLE[1]) <= RADIUS for a, b in places]
-    return mixed(np.mean(hit, axis=0), 1.0)
-
-
 @pytest.mark.parametrize(
     "picture",
     [
-        disc_of_four_samples(),
         # Level edges wave nowhere.
         mixed(np.pad(np.full((60, 60), 1.0), 30) * 0.999, 2.2),
         np.rint(gaussian_filter(mixed(DISC, 2.2).astype(float), 1.0)).astype(np.uint8),
         np.dstack([np.full((120, 120, 3), 40), 255 * DISC]).astype(np.uint8),
     ],
-    ids=["few greys", "level", "blurred", "transparent"],
+    ids=["level", "blurred", "transparent"],
 )
 def test_what_tells_nothing_is_left_as_it_is(picture):
     field, _ = Seeing().field(picture)
