@@ -59,12 +59,13 @@ class SmoothGround:
     def __call__(self, rows: IntArray, columns: IntArray) -> FloatArray:
         """Values at rows and columns that broadcast."""
         y, x = (2 * (at + 0.5) / n - 1 for at, n in zip((rows, columns), self.shape, strict=True))
+        own = dict(zip(POWERS, self.coefficients.tolist(), strict=True))
         found = np.zeros(np.broadcast_shapes(y.shape, x.shape))
-        for i in range(DEGREE + 1):
-            own = [
-                value * x**j
-                for (k, j), value in zip(POWERS, self.coefficients, strict=True)
-                if k == i
-            ]
-            found += y**i * sum(own)
+        for i in range(DEGREE, -1, -1):  # by Horner in y, of what is Horner in x
+            of_x = np.zeros(x.shape)
+            for j in range(DEGREE - i, -1, -1):
+                of_x *= x
+                of_x += own[i, j]
+            found *= y
+            found += of_x
         return found

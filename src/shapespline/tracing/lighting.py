@@ -37,19 +37,41 @@ ROUNDS, BELOW = 8, 3.0
 # another way is better if it leaves less than this, and less than this part of what there was
 # (TRC-17).
 EDGE, REACH, ALONG_NOTHING, BETTER = 0.35, 3, 0.12, 0.6
+# An edge of ink is at least so many steps of the picture's whole values high: what a ground leaves
+# of one or two is how its light was rounded (TRC-41).
+LEAST_STEPS = 3
 
 
 def part_along_nothing(field: Field, found: Crossings) -> float:
     """Part of the level lines that runs along no edge of the picture."""
-    inner = np.flatnonzero(~found.at_rim(*field.shape))
-    if len(inner) == 0:
-        return 0.0
+    differences = _differences(field.coverage, found, field.shape)
+    return float((differences < EDGE).mean()) if len(differences) else 0.0
+
+
+def are_steps(values: Layer, found: Crossings) -> bool:
+    """Whether most edges are no higher than what rounding to whole values leaves of light."""
+    if not values.is_whole:
+        return False
+    height, width = values.shape
+
+    def near(row: IntArray, column: IntArray) -> FloatArray:
+        inside = np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)
+        return values[inside].astype(np.float64)
+
+    differences = _differences(near, found, values.shape)
+    return len(differences) > 0 and float(np.median(differences)) < LEAST_STEPS
+
+
+def _differences(
+    at: Callable[[IntArray, IntArray], FloatArray], found: Crossings, shape: tuple[int, int]
+) -> FloatArray:
+    """By how much values differ near crossings inside the picture, of many at every so many."""
+    inner = np.flatnonzero(~found.at_rim(*shape))
     part = found.chosen(inner[:: len(inner) // 200_000 + 1])
     offsets, row, column = np.arange(1 - REACH, REACH + 1), part.row[:, None], part.column[:, None]
     # Along rows and along columns: noise lets the line of a level edge cross both.
-    across = np.ptp(field.coverage(row + offsets, column), axis=1)
-    along = np.ptp(field.coverage(row, column + offsets), axis=1)
-    return float((np.maximum(across, along) < EDGE).mean())
+    across, along = at(row + offsets, column), at(row, column + offsets)
+    return np.maximum(np.ptp(across, axis=1), np.ptp(along, axis=1))
 
 
 class EvenlyLit(Layer):

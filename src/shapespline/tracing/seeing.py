@@ -25,6 +25,7 @@ from shapespline.tracing.level import halfway_to_other, noise_deviation, picture
 from shapespline.tracing.lighting import (
     ALONG_NOTHING,
     BETTER,
+    are_steps,
     evenly_lit,
     part_along_nothing,
 )
@@ -140,9 +141,13 @@ class Seeing:
         for ink in (light,) if told else (light, not light):
             say("looking for the light on the ground")
             even = cut_field(evenly_lit(values, ink), ink)
-            found_even = crossings(even, say)
+            try:
+                found_even = crossings(even, say)
+            except DegenerateContourError:  # noise once its light is even
+                continue
             left = part_along_nothing(even, found_even)
-            if left <= most and (1 - left) * len(found_even.row) >= edges:
+            enough = left <= most and (1 - left) * len(found_even.row) >= edges
+            if enough and not are_steps(values, found_even):
                 ways.append((left, len(found_even.row), (even, found_even)))
         if not ways:
             return field, found

@@ -66,6 +66,22 @@ def test_of_two_inks_that_tell_as_much_the_shorter_border_is_taken(size):
             assert len(trace(image)) == 1
 
 
+@pytest.mark.parametrize("size", [(200, 1000), (500, 1000), (200, 2048)])
+def test_the_steps_of_a_ramp_are_no_ink(size):
+    """Where 8 bits round a ramp they leave bands, which are edges of one step each."""
+    height, width = size
+    ramp = np.tile(np.rint(np.linspace(0, 255, width)).astype(np.uint8), (height, 1))
+    shape = trace(ramp)
+    assert len(shape) == 1
+    assert np.ptp(shape.contours[0].points, axis=0).tolist() == [width / 2, height]
+
+
+def test_a_way_that_is_noise_is_passed_over():
+    ramp = np.tile(np.rint(np.linspace(0, 255, 500)).astype(np.uint8), (500, 1))
+    with pytest.warns(PictureWarning, match="unevenly lit"):
+        assert len(trace(ramp)) == 1
+
+
 def test_a_window_does_the_same_where_it_always_shows_ground():
     image = lit(LIGHTS["from the left"], noise=0.0)
     assert counted(trace(image, polarity="dark", local=80, min_area=6)) == (9, 4)
