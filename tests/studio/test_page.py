@@ -22,6 +22,14 @@ def test_the_first_screen_shows_a_fit_and_its_sentence(page):
     assert len(picture) > 5000
 
 
+def test_what_is_to_be_known_of_a_fit_stands_below_its_figures(page):
+    for tolerance, items in (("0.04", 1), ("0.5", 0)):
+        page.fill("#tolerance-number", tolerance)
+        page.keyboard.press("Enter")
+        until(page, f"() => document.querySelectorAll('#remarks li').length === {items}")
+    assert page.inner_text("#remarks") == ""
+
+
 def test_everything_by_keyboard(page):
     example(page, LEAF)
     page.focus("#canvas")

@@ -82,6 +82,22 @@ def test_an_example_is_opened_fitted_and_taken_away(page):
     assert "no option of writing" in page.next("error")["sentence"]
 
 
+@pytest.mark.filterwarnings("ignore:the picture tells")
+def test_what_the_command_line_says_of_a_fit_is_said_once(page):
+    page.say(type="example", id="gear", generation=1)
+    page.next("shape")
+    page.say(type="fit", generation=2, settings={"tolerance": 0.04})
+    (remark,) = page.next("done")["remarks"]
+    assert remark.startswith("the picture tells an outline to")
+    page.say(type="fit", generation=3, settings={"tolerance": 0.5})
+    assert page.next("done")["remarks"] == []
+    corners = {str(k): {"corners": []} for k in range(8)}
+    page.say(type="fit", generation=4, settings={"tolerance": 0.04}, own=corners)
+    assert page.next("done")["remarks"] == []
+    page.say(type="fit", generation=5, settings={})
+    assert page.next("done")["remarks"] == []
+
+
 def test_a_newer_fit_ends_the_older(page):
     page.say(type="example", id="gear", generation=1)
     page.next("shape")

@@ -2,6 +2,7 @@
 
 from shapespline.engines.drawn import NAMES as REGULARITIES
 from shapespline.fitting.curve import fit_curve
+from shapespline.fitting.goals import Within
 from shapespline.fitting.large import fit_large
 from shapespline.fitting.many import Batch, fit_many
 from shapespline.fitting.offset import offset_drawing
@@ -17,6 +18,7 @@ __all__ = [
     "Batch",
     "Request",
     "Settings",
+    "Within",
     "fit_curve",
     "fit_large",
     "fit_many",

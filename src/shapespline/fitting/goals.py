@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from shapespline.analysis import largest_bulge
 from shapespline.engines.drawn import NAMES
-from shapespline.errors import PictureWarning, SparsePointsWarning, caller_level
+from shapespline.errors import PictureWarning, SparsePointsWarning
 from shapespline.fitting.settings import DEFAULT_METHOD
 
 if TYPE_CHECKING:
@@ -27,34 +26,36 @@ class Within:
 
     tolerance: float
 
-    def warn_of_sparse(self, contour: Contour) -> None:
-        """Say so if a smooth curve through the points does not keep it between them."""
+    def remarks(self, contour: Contour) -> list[UserWarning]:
+        """What to know of a contour's curve within the tolerance before it is looked for."""
+        found = self._of_sparse(contour), self._of_errors(contour)
+        return [remark for remark in found if remark is not None]
+
+    def _of_sparse(self, contour: Contour) -> SparsePointsWarning | None:
+        """That a smooth curve through the points does not keep it between them."""
         bulge = largest_bulge(contour)
         if bulge <= SPARSE * self.tolerance:
-            return
-        warnings.warn(
+            return None
+        return SparsePointsWarning(
             "the points are sparse for their tolerance: a smooth curve through them lies up to"
             f" {bulge:.3g} off the chords between them, and tolerance={self.tolerance:.3g} is kept"
             " between points, too, by corners if need be; give more points or"
-            f" tolerance={1.1 * bulge:.2g} for a smooth curve",
-            SparsePointsWarning,
-            stacklevel=caller_level(),
+            f" tolerance={1.1 * bulge:.2g} for a smooth curve"
         )
 
-    def warn_of_errors(self, contour: Contour) -> None:
-        """Say so if a picture tells the contour less exactly than the curve is to follow it."""
+    def _of_errors(self, contour: Contour) -> PictureWarning | None:
+        """That a picture tells the contour less exactly than the curve is to follow it."""
         if contour.level_line is None or not contour.accuracy:
-            return
+            return None
         told = FOLLOWED * contour.accuracy
-        if self.tolerance < told:
-            warnings.warn(
-                f"the picture tells an outline to {told:.2g} only: a curve within"
-                f" tolerance={self.tolerance:.3g} follows the steps of its pixels or its grain by"
-                " many pieces; leave the tolerance out, or give"
-                f" tolerance={1.05 * told:.2g} or more",
-                PictureWarning,
-                stacklevel=caller_level(),
-            )
+        if self.tolerance >= told:
+            return None
+        return PictureWarning(
+            f"the picture tells an outline to {told:.2g} only: a curve within"
+            f" tolerance={self.tolerance:.3g} follows the steps of its pixels or its grain by"
+            " many pieces; leave the tolerance out, or give"
+            f" tolerance={1.05 * told:.2g} or more"
+        )
 
 
 @dataclass(frozen=True)

@@ -126,8 +126,8 @@ class Request:
         )
         request = request.without_outliers() if settings.outliers else request
         if isinstance(request.goal, Within) and not request.style.names_corners:
-            request.goal.warn_of_sparse(request.contour)
-            request.goal.warn_of_errors(request.contour)
+            for remark in request.goal.remarks(request.contour):
+                warnings.warn(remark, stacklevel=caller_level())
         if isinstance(settings.tolerance, str) and len(request.left_out):
             request = replace(request, goal=_goal(settings, request.contour))
         return request.checked()

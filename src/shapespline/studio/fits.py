@@ -9,7 +9,7 @@ import numpy as np
 
 from shapespline import typing as words
 from shapespline.errors import InvalidInputError, ShapesplineError
-from shapespline.fitting import Settings, fit_curve, fit_shape, verified_fit
+from shapespline.fitting import Settings, Within, fit_curve, fit_shape, verified_fit
 from shapespline.values import BSplineCurve, Contour, Drawing
 
 if TYPE_CHECKING:
@@ -94,6 +94,17 @@ def whole(asked: Asked, ticket: Ticket) -> Drawing:
         return fit_shape(shape, callback=ticket.check, shared_boundaries=shared, **options)
     fits = [fitted(asked, index, ticket) for index in range(len(shape))]
     return Drawing.of(shape, fits)
+
+
+def remarks(asked: Asked, drawing: Drawing) -> list[str]:
+    """What the command line says of these fits: sentences, each once."""
+    said: dict[str, None] = {}
+    for index, fit in enumerate(drawing):
+        settings = asked.settings(index)
+        if settings.tolerance is not None and isinstance(settings.corners, str):
+            found = Within(fit.tolerance).remarks(asked.contour(index))
+            said |= dict.fromkeys(map(str, found))
+    return list(said)
 
 
 def splprep_fit(contour: Contour, tolerance: float, degree: int, ticket: Ticket) -> Fit:

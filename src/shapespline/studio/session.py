@@ -259,6 +259,7 @@ class Session:
             if not draft:
                 self._drawings[slot] = drawing
             about = {"slot": slot, "draft": draft, "seconds": perf_counter() - began}
+            about["remarks"] = [] if asked is None else fits.remarks(asked, drawing)
             self._done(drawing, [lines[k] for k in range(n_outlines)], ticket, about)
 
         self._submit(slot, header, work)

@@ -2,7 +2,7 @@
 
 import { KINDS, colors } from "./colors.js";
 import { LAYERS } from "./layers.js";
-import { capital, choice, counted, element, fill, input, short, size, time } from "./words.js";
+import { capital, choice, counted, element, fill, input, say, short, size, time } from "./words.js";
 
 /** @typedef {import("./types.js").State} State */
 
@@ -265,6 +265,7 @@ export class Panel {
     const fits = fitter.fits.filter((fit) => fit !== undefined);
     if (!fits.length) {
       element("figures").replaceChildren();
+      say("remarks", []);
       return;
     }
     const sum = (/** @type {(f: import("./types.js").Fit) => number} */ of) => fits.reduce((all, fit) => all + of(fit), 0);
@@ -274,6 +275,7 @@ export class Panel {
       ["Points to curve", short(Math.max(...fits.map((fit) => fit.max_distance)))],
       ["Both ways", short(Math.max(...fits.map((fit) => fit.hausdorff_distance)))],
       ["As SVG", done?.n_bytes ? size(done.n_bytes) : "–"], ["Time", done ? time(done.seconds) : "–"]];
+    say("remarks", done?.remarks.map(capital) ?? []);
     const list = element("figures");
     if (list.children.length !== 2 * rows.length) {
       list.innerHTML = rows.map(() => "<dt></dt><dd></dd>").join("");

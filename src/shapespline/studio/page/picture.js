@@ -1,6 +1,6 @@
 // How a picture is read: level, colours, specks, part, size; each change reads it again.
 
-import { choice, element, input } from "./words.js";
+import { choice, element, input, say } from "./words.js";
 
 // After the last move of the level so long is waited, milliseconds.
 const PATIENCE = 120;
@@ -95,10 +95,6 @@ export class Picture {
     input("p-unordered").checked = Boolean(reading.unordered);
     input("p-width").value = reading.scale ? `${Number((reading.scale * this.app.files.pixels).toPrecision(6))}` : "";
     element("p-whole").toggleAttribute("disabled", !reading.crop);
-    element("notes").replaceChildren(...(scene.shape?.sentences ?? []).map((text) => {
-      const item = document.createElement("li");
-      item.textContent = text;
-      return item;
-    }));
+    say("notes", scene.shape?.sentences ?? []);
   }
 }

@@ -17,7 +17,8 @@
  *   samples: Float32Array, errors: Float32Array}} Fit
  * @typedef {{name: string, noun: string, pieces: number[], off: number, order: number}} Regularity
  * @typedef {{slot: string, draft: boolean, crossings: Float32Array, n_stored_points: number, n_bytes: number | null,
- *   n_kept: number, distance: number, seconds: number, generation: number, regularities: Regularity[]}} Done
+ *   n_kept: number, distance: number, seconds: number, generation: number, regularities: Regularity[],
+ *   remarks: string[]}} Done
  * @typedef {{corners?: number[], through?: number[], end_tangents?: (number[] | null)[],
  *   moved?: number[][]}} Own
  * @typedef {{goal: string, tolerance: number, points: number, degree: number, corners: string,

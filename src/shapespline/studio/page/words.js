@@ -46,6 +46,17 @@ export function fill(list, options) {
   }));
 }
 
+/** Sentences as the items of a list. @param {string} id @param {string[]} sentences */
+export function say(id, sentences) {
+  const list = element(id);
+  if (list.children.length === sentences.length && sentences.every((text, k) => list.children[k].textContent === text)) return;
+  list.replaceChildren(...sentences.map((text) => {
+    const item = document.createElement("li");
+    item.textContent = text;
+    return item;
+  }));
+}
+
 /** @param {string} text */
 export function capital(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
