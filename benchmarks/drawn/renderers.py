@@ -9,7 +9,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageFilter
 from scipy.ndimage import gaussian_filter
 
 from benchmarks.drawn.truth import Cubic, Line
@@ -65,6 +65,18 @@ def sampled(outlines: Sequence[Outline], size: int, each: int) -> Picture:
 def in_light(outlines: Sequence[Outline], size: int) -> Picture:
     """By the coverage of each pixel, ink and ground mixed as light, not as values."""
     return np.rint(255 * (1 - coverage(outlines, size)) ** (1 / 2.2)).astype(np.uint8)
+
+
+def raised(outlines: Sequence[Outline], size: int) -> Picture:
+    """By the coverage of each pixel, its contrast doubled: a quarter is cut off at either end."""
+    doubled = 2.0 * exact(outlines, size).astype(float) - 127.5
+    return np.rint(np.clip(doubled, 0, 255)).astype(np.uint8)
+
+
+def sharpened(outlines: Sequence[Outline], size: int) -> Picture:
+    """By the coverage of each pixel, then an unsharp mask."""
+    mask = ImageFilter.UnsharpMask(radius=1.0, percent=100, threshold=0)
+    return np.asarray(Image.fromarray(exact(outlines, size)).filter(mask))
 
 
 def scanned(outlines: Sequence[Outline], size: int, blur: float, grain: float) -> Picture:
@@ -216,6 +228,8 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "2 x 2 samples": lambda outlines, size: sampled(outlines, size, 2),
     "4 x 4 samples": lambda outlines, size: sampled(outlines, size, 4),
     "linear light": in_light,
+    "contrast doubled": raised,
+    "sharpened, JPEG 90": lambda outlines, size: jpeg(sharpened(outlines, size)),
     "enlarged twice": lambda outlines, size: enlarged(outlines, size, Image.Resampling.BICUBIC),
     "enlarged twice, JPEG 90": lambda outlines, size: jpeg(
         enlarged(outlines, size, Image.Resampling.BICUBIC)

@@ -38,6 +38,8 @@ class Field:
         How wide a pixel is in those of the picture, which was enlarged (TRC-38).
     interpolated : bool
         Whether that was done by more than copies of pixels.
+    step : float
+        How coarse the parts of pixels that are ink are known at least, of the contrast (TRC-42).
     """
 
     values: Layer
@@ -48,6 +50,7 @@ class Field:
     middle: float
     scale: int = 1
     interpolated: bool = False
+    step: float = 0.0
 
     @property
     def shape(self) -> tuple[int, int]:

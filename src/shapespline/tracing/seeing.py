@@ -41,6 +41,7 @@ from shapespline.tracing.pixels import (
     shows_ground,
     validated_pixels,
 )
+from shapespline.tracing.raised_contrast import as_parts
 from shapespline.validation import is_number
 
 if TYPE_CHECKING:
@@ -121,6 +122,11 @@ class Seeing:
             level = halfway_to_other(values, full_scale(pixels))
         field = cut_field(values, light, level)
         found = crossings(field, say)
+        if level is None and not self.blur:
+            parts = as_parts(field, found)
+            if parts is not None:
+                say("looking at the picture as it was before its contrast was raised")
+                return parts, crossings(parts, say)
         if level is None and not (differs or self.blur or has_alpha(pixels)):
             linear = in_linear_light(field, found, full_scale(pixels))
             if linear is not None:

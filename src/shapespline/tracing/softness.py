@@ -80,12 +80,14 @@ class Softness(NamedTuple):
             for side in (-1, 1)
         )
         profiles = profiles_across(field, part) / ink[:, None]
-        soft = cls.told(profiles, (behind - before) / ink, field.noise)
+        soft = cls.told(profiles, (behind - before) / ink, field.noise, field.step)
         # What interpolation takes beyond ground and ink is cut off at black and white (TRC-38).
         return soft._replace(rippled=soft.rippled or field.interpolated)
 
     @classmethod
-    def told(cls, profiles: FloatArray, beside: FloatArray, noise: float) -> Softness:
+    def told(
+        cls, profiles: FloatArray, beside: FloatArray, noise: float, step: float = 0.0
+    ) -> Softness:
         """Of a picture, told by the grey across its edges.
 
         Parameters
@@ -96,9 +98,11 @@ class Softness(NamedTuple):
             By how much the pixel of the ground differs between its two neighbours along the edge.
         noise : float
             Of the contrast.
+        step : float
+            That greys are known to have at least.
         """
         blur = _blur(profiles, beside, noise)
-        step = 0.0 if blur else _step(profiles)
+        step = 0.0 if blur else max(_step(profiles), step)
         rippled = not blur and _is_rippled(profiles)
         if blur is None:
             return cls(0.0, SCATTER * step**0.5, rippled, step)
