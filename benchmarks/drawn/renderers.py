@@ -47,10 +47,15 @@ def jpeg(picture: Picture, quality: int = 90) -> Picture:
     return np.asarray(Image.open(stream))
 
 
-def enlarged(outlines: Sequence[Outline], size: int, way: Image.Resampling) -> Picture:
-    """By the coverage of pixels twice as wide, and enlarged."""
-    half = [tuple(one.moved(0.5, 0.0, np.zeros(2)) for one in outline) for outline in outlines]
-    return np.asarray(Image.fromarray(exact(half, size // 2)).resize((size, size), way))
+def enlarged(
+    outlines: Sequence[Outline], size: int, way: Image.Resampling, by: float = 2.0
+) -> Picture:
+    """By the coverage of pixels that much wider, and enlarged."""
+    small = round(size / by)
+    drawn = [
+        tuple(one.moved(small / size, 0.0, np.zeros(2)) for one in outline) for outline in outlines
+    ]
+    return np.asarray(Image.fromarray(exact(drawn, small)).resize((size, size), way))
 
 
 def sampled(outlines: Sequence[Outline], size: int, each: int) -> Picture:
@@ -233,6 +238,9 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "enlarged twice": lambda outlines, size: enlarged(outlines, size, Image.Resampling.BICUBIC),
     "enlarged twice, JPEG 90": lambda outlines, size: jpeg(
         enlarged(outlines, size, Image.Resampling.BICUBIC)
+    ),
+    "enlarged by 1.25": lambda outlines, size: enlarged(
+        outlines, size, Image.Resampling.BICUBIC, by=1.25
     ),
     "copied twice": lambda outlines, size: enlarged(outlines, size, Image.Resampling.NEAREST),
     "blurred by 1": lambda outlines, size: scanned(outlines, size, blur=1.0, grain=0.5),

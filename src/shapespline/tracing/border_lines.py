@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from shapespline.tracing.color_edges import NodePlaces, Seen
     from shapespline.tracing.corners import Missing
     from shapespline.tracing.sides import Corners
+    from shapespline.tracing.softness import Softness
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 
@@ -49,7 +50,7 @@ def drawn_borders(seen: Seen, found: Bordering) -> list[Line]:
         certain.append(not at_rim and (known or soft.shows_corners(_noise(seen, arc))))
         accuracies.append(DRAWN_ACCURACY if known else soft.accuracy)
 
-    def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
+    def fit(corners: Corners, tried: Sequence[FloatArray], soft: Softness) -> BoolArray:
         first, second = _sides(corners, found)
         axis = seen.axis(first, second)
         missing = _missing(corners.points, tried, found, seen, first, axis)

@@ -50,6 +50,9 @@ ANGLES = (0.0, 15.0, 20.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 135.0, 15
 CUT_OFF = (4.0, 3.9, 2.95, 2.03, 1.49, 1.22, 0.93, 0.715, 0.55, 0.42, 0.315, 0.223, 0.154, 0.05)
 # The same for a blur, in its deviations, beside: half of it around a wedge is ink there (TRC-20).
 CUT_OFF_BLURRED = (8.0, 5.17, 3.88, 2.61, 1.74, 1.29, 0.99, 0.77, 0.6, 0.45, 0.33, 0.21, 0.11, 0.0)
+# A picture that was turned, or made larger or smaller a little, is blurred by less than is told:
+# level lines are as far from corners as that blur lets them be (TRC-43).
+SOFTENED = 0.25
 # Pixels on either side of a corner whose ink is added up. No more of it may be missing, or be too
 # much, than a rounding of this radius takes or a tip of this length has, and this many square
 # pixels; so many more for each pixel of blur, as the blur is not known exactly (TRC-20).
@@ -58,13 +61,18 @@ AROUND, ROUNDING, TIP, UNCERTAIN, UNCERTAIN_BLUR = 3, 0.5, 1.5, 0.03, 0.25
 # deviations in each are not told of the sum, but no more than a rounding of this radius takes
 # (TRC-37).
 BESIDE, RIPPLES, RIPPLED_OFF = 2, 5.0, 1.5
+# And so many where they are not, at turns that are no part of a rounding: what a picture's
+# resampling leaves (TRC-43).
+RESAMPLED, SHARP_TURN = 0.8, np.radians(45.0)
 # Few greys leave the sum uncertain by so many square roots of their step, and no more than such a
 # rounding takes (TRC-39).
 FEW_GREYS = 0.6
 # Corners whose ink is added up at once.
 TOGETHER = 10_000
 # From which sides corners are looked for: how far they are disturbed, and how far they go.
-LOOKS = (*((disturbed, SIDE) for disturbed in DISTURBED), (DISTURBED[0], SHORT_SIDE))
+FROM = (*((disturbed, SIDE) for disturbed in DISTURBED), (DISTURBED[0], SHORT_SIDE))
+# At last those that resampling lets them be, from the farthest sides first (TRC-43).
+LOOKS = (*((look, False) for look in FROM), *((look, True) for look in FROM[:3]))
 # Shorter outlines have no sides that show undisturbed.
 SHORTEST_OUTLINE = 16.0
 
@@ -94,7 +102,7 @@ def sharpened(
         What the ink of each is worth, of that of the picture.
     """
 
-    def fit(corners: Corners, tried: Sequence[FloatArray]) -> BoolArray:
+    def fit(corners: Corners, tried: Sequence[FloatArray], soft: Softness) -> BoolArray:
         ink = inks[corners.own, None, None]
         covered = border_coverage(tried, *field.shape)
         missing = missing_around(
@@ -114,7 +122,7 @@ def put_back(
     level_lines: Sequence[FloatArray],
     drawn: Sequence[bool],
     closed: Sequence[bool],
-    fit: Callable[[Corners, Sequence[FloatArray]], BoolArray],
+    fit: Callable[[Corners, Sequence[FloatArray], Softness], BoolArray],
     soft: Softness = SHARP,
 ) -> list[FloatArray]:
     """Outlines and open lines with the corners that fit the picture.
@@ -128,7 +136,7 @@ def put_back(
         As for `sharpened`.
     closed : sequence of bool
     fit : callable
-        Which corners fit the picture, of some and the lines with them.
+        Which corners fit the picture, of some and the lines with them, as soft as it is taken for.
     soft : Softness
     """
     long = [length >= SHORTEST_OUTLINE for length in map(length_of, lines)]
@@ -138,15 +146,18 @@ def put_back(
     chosen = used.tolist()
     ways = Ways([lines[k] for k in chosen], [closed[k] for k in chosen])
     turns = turns_of(ways, soft)
-    corners, most = NONE, np.array(CUT_OFF) + soft.blur * np.array(CUT_OFF_BLURRED)
-    for disturbed, side in LOOKS:
+    corners = NONE
+    for (disturbed, side), resampled in LOOKS:
+        seen = soft._replace(resampled=resampled)
+        blur = max(soft.blur, SOFTENED) if resampled else soft.blur
+        most = np.array(CUT_OFF) + blur * np.array(CUT_OFF_BLURRED)
         found = meetings(ways, turns, disturbed, side, soft)
         found = found._replace(own=used[found.own])
         far = _distances(found.points, found.own, level_lines, closed)
         cut_off = np.interp(np.degrees(np.pi - found.turns), ANGLES, most)
         found = corners.joined(found.chosen((far <= cut_off) & _away(found, corners)))
         if len(found.points) > len(corners.points):
-            corners = found.chosen(fit(found, with_corners(lines, found, closed)))
+            corners = found.chosen(fit(found, with_corners(lines, found, closed), seen))
         if len(corners.points) == len(turns.own):
             break
     return with_corners(lines, corners, closed)
@@ -274,7 +285,9 @@ class Missing(NamedTuple):
         """Which corners miss no more than is not told, in noise of the contrast."""
         side = 2 * reach_of(soft) + 1
         uncertain = 3 * side * np.asarray(noise)
-        ripples = RIPPLES * side * self.beside if soft.rippled else 0.0
+        sharp = soft.resampled & (corners.turns > SHARP_TURN)
+        each = RIPPLES if soft.rippled else np.where(sharp, RESAMPLED, 0.0)
+        ripples = each * side * self.beside
         ripples = np.maximum(ripples, FEW_GREYS * soft.step**0.5)
         most = taken_off(corners.turns, RIPPLED_OFF)
         uncertain = np.maximum(uncertain, np.minimum(ripples, most))

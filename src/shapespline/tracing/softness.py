@@ -58,13 +58,14 @@ class Softness(NamedTuple):
 
     Both are 0 where the grey does not tell. ``rippled`` are sharp edges with ripples beside them.
     ``step`` is what the few greys of sharp edges are multiples of, of the contrast: those edges
-    scatter, too.
+    scatter, too. ``resampled`` is a picture taken for one that was turned or scaled by little.
     """
 
     blur: float = 0.0
     scatter: float = 0.0
     rippled: bool = False
     step: float = 0.0
+    resampled: bool = False
 
     @classmethod
     def of(cls, field: Field, found: Crossings, inks: FloatArray) -> Softness:
