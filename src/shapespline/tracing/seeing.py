@@ -106,6 +106,10 @@ class Seeing:
             say(f"looking at the picture as it was before it was enlarged by {enlarged.factor}")
             field = enlarged.undone(field)
             found = crossings(field, say)
+            parts = as_parts(field, found) if free and not self.blur else None
+            if parts is not None:
+                field = replace(parts, scale=field.scale, interpolated=field.interpolated)
+                found = crossings(field, say)
         between = cut_between_inks(field, found) if free else None
         if between is None:
             return field, found
@@ -124,12 +128,13 @@ class Seeing:
         found = crossings(field, say)
         if level is None and not self.blur:
             parts = as_parts(field, found)
-            if parts is not None:
+            # Copies of pixels have steps and waves, too (TRC-38).
+            if parts is not None and Enlargement.of(field).factor == 1:
                 say("looking at the picture as it was before its contrast was raised")
                 return parts, crossings(parts, say)
         if level is None and not (differs or self.blur or has_alpha(pixels)):
             linear = in_linear_light(field, found, full_scale(pixels))
-            if linear is not None:
+            if linear is not None and not Enlargement.of(field).copied:
                 say("looking at the picture as light, which its ink and ground were mixed as")
                 return linear, crossings(linear, say)
         if differs and self.channel == "auto" and self.color is None:

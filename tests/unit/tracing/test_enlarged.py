@@ -6,6 +6,7 @@ import io
 
 import numpy as np
 import pytest
+from benchmarks.drawn.tables import rendered
 from PIL import Image
 from scipy.ndimage import gaussian_filter
 from tests.support.rendering import coverage, polygon
@@ -62,6 +63,12 @@ def test_the_factor_and_copies_are_told(factor, way, quality):
 )
 def test_others_were_not_enlarged(image):
     assert told(image).factor == 1
+
+
+def test_copies_of_pixels_wave_but_are_no_light():
+    _, image = rendered("server", 256, "copied twice")
+    for small, large in zip(trace(image[::2, ::2]), trace(image), strict=True):
+        np.testing.assert_allclose(large.points, 2.0 * small.points, rtol=0, atol=1e-9)
 
 
 def test_level_strokes_tell_nothing():

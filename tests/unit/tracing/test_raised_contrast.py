@@ -163,6 +163,14 @@ def test_three_small_parts_tell_nothing():
         assert (_Tone.of(ends, border, 0.006) is not None) == told
 
 
+@pytest.mark.parametrize("raised", [np.asarray, clipped(2)], ids=["as it is", "raised"])
+def test_copies_of_pixels_are_looked_at_as_they_were_before(raised):
+    image = np.kron(dark(raised(COVERS[1])), np.ones((2, 2), dtype=np.uint8))
+    field, _ = Seeing().field(image)
+    assert field.scale == 2
+    assert (field.step > 0) == (raised is not np.asarray)
+
+
 def test_a_level_that_is_given_is_kept():
     field, _ = Seeing(level=100).field(dark(clipped(2)(DISC)))
     assert field.cut == 99.5
