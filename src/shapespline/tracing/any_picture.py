@@ -111,8 +111,9 @@ def trace(
         along it; what ends in its pixels ends there. Each contour has the ``level_line`` that it
         was read along, and the ``accuracy`` that drawings with known outlines have been found with:
         0.02 pixels where the grey tells the edge, up to 0.09 where that has nine values or fewer,
-        0.07 where only the level tells it, 0.25 where there is no grey. What was left out as noise
-        is in ``left_out``. Of a picture that was made 2, 3 or 4 times as large, by copies of its
+        or its contrast was raised (level edges are then off by as much as was cut off), 0.07 where
+        only the level tells it, 0.25 where there is no grey. What was left out as noise is in
+        ``left_out``. Of a picture that was made 2, 3 or 4 times as large, by copies of its
         pixels or smoothly, all this is that of the smaller one, times as much.
 
     Raises

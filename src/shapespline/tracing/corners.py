@@ -71,7 +71,7 @@ FEW_GREYS = 0.6
 TOGETHER = 10_000
 # From which sides corners are looked for: how far they are disturbed, and how far they go.
 FROM = (*((disturbed, SIDE) for disturbed in DISTURBED), (DISTURBED[0], SHORT_SIDE))
-# At last those that resampling lets them be, from the farthest sides first (TRC-43).
+# At last those that resampling lets them be, but among ripples (TRC-43).
 LOOKS = (*((look, False) for look in FROM), *((look, True) for look in FROM[:3]))
 # Shorter outlines have no sides that show undisturbed.
 SHORTEST_OUTLINE = 16.0
@@ -147,7 +147,7 @@ def put_back(
     ways = Ways([lines[k] for k in chosen], [closed[k] for k in chosen])
     turns = turns_of(ways, soft)
     corners = NONE
-    for (disturbed, side), resampled in LOOKS:
+    for (disturbed, side), resampled in LOOKS[: len(FROM)] if soft.rippled else LOOKS:
         seen = soft._replace(resampled=resampled)
         blur = max(soft.blur, SOFTENED) if resampled else soft.blur
         most = np.array(CUT_OFF) + blur * np.array(CUT_OFF_BLURRED)

@@ -87,7 +87,7 @@ def as_parts(field: Field, found: Crossings) -> Field | None:
 
 
 class _Outlines(NamedTuple):
-    """Crossings of outlines that are not too small, in order; the first of each's, and how many."""
+    """Crossings of outlines that are not too small, in order; where each's begin, and how many."""
 
     order: IntArray
     first: IntArray
@@ -190,14 +190,14 @@ class _Tone(NamedTuple):
         greys, parts = np.array(means).T
         # Towards ground as between the first two.
         slope = (parts[1] - parts[0]) / max(greys[1] - greys[0], 1e-9)
-        cut_off = max(parts[0] - slope * greys[0], 0.0)
+        cut_off = np.clip(parts[0] - slope * greys[0], 0.0, 0.5)
         greys = np.concatenate([[0.0], greys, 1.0 - greys[::-1], [1.0]])
         parts = np.concatenate([[cut_off], parts, 1.0 - parts[::-1], [1.0 - cut_off]])
         return cls(greys, parts)
 
     @property
     def cut_off(self) -> float:
-        """Parts that are none; above one less it they are all."""
+        """Smaller parts are none; larger ones than one less it are all."""
         return float(self.parts[0])
 
     def __call__(self, greys: FloatArray) -> FloatArray:
