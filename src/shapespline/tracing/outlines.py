@@ -115,7 +115,8 @@ def _shape(lines: Sequence[Line], specks: Sequence[FloatArray], field: Field) ->
     height, width = field.shape
     parents, order, turned = nesting([line.level_line for line in lines])
     contours = [
-        Contour(
+        # Corners that are put back may meet in noise.
+        Contour.silently(
             lines[index].points[:: -1 if turn else 1],
             closed=True,
             accuracy=lines[index].accuracy,

@@ -44,7 +44,9 @@ class Parabolas(NamedTuple):
         """
         near = points[around]
         along = near[:, -1] - near[:, 0]
-        along /= np.maximum(np.hypot(along[:, 0], along[:, 1]), 1e-9)[:, None]
+        length = np.hypot(along[:, 0], along[:, 1])[:, None]
+        # Of points that come back to where they begin any direction is as good.
+        along = np.where(length > 0, along / np.where(length > 0, length, 1.0), (1.0, 0.0))
         origin = near.mean(axis=1)
         x, y = _turned(near - origin[:, None], along[:, None])
         powers = x[..., None] ** np.arange(3)

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.path import Path as MplPath
+from scipy.ndimage import gaussian_filter
 
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.tracing import trace
@@ -293,3 +294,12 @@ def test_accuracy_tells_one_bit_from_anti_aliased():
         assert contour.accuracy == accuracy
         error = np.abs(np.hypot(*(contour.points - 40).T) - 25)
         assert np.sqrt((error**2).mean()) <= accuracy
+
+
+@pytest.mark.filterwarnings("ignore::shapespline.errors.PictureWarning")
+def test_corners_that_meet_in_noise_are_no_warning():
+    rng = np.random.default_rng(37)
+    height, width = rng.integers(5, 90, 2)
+    blots = gaussian_filter(rng.normal(size=(height, width)), rng.uniform(0.5, 4))
+    image = np.clip(127 + rng.uniform(20, 900) * blots / blots.std(), 0, 255)
+    assert len(trace(np.rint(image).astype(np.uint8))) > 0

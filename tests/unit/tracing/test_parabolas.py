@@ -65,3 +65,13 @@ def test_points_that_scatter_lie_off():
     assert Parabolas.through(points, AROUND, AT).off[0] == pytest.approx(
         0.2 * np.cos(np.pi / 6), rel=0.1
     )
+
+
+def test_points_that_come_back_tell_a_direction_all_the_same():
+    angle = np.linspace(0.0, 2.0 * np.pi, 11)
+    points = np.column_stack([np.cos(angle), np.sin(angle)])
+    points[-1] = points[0]
+    edge = Parabolas.through(points, AROUND, points[5:6])
+    assert np.isfinite(edge.direction).all()
+    assert 0.0 <= edge.covered(AT)[0] <= 1.0
+    assert edge.off[0] > 0.5

@@ -185,3 +185,14 @@ def test_one_who_listens_is_told():
     heard = []
     trace(dark(clipped(2)(DISC)), progress=heard.append)
     assert "looking at the picture as it was before its contrast was raised" in heard
+
+
+@pytest.mark.filterwarnings("ignore::shapespline.errors.PictureWarning")
+@pytest.mark.parametrize("seed", range(8, 14))
+def test_blots_of_high_contrast_have_outlines(seed):
+    """Outlines that come back to where they were within a few crossings, too."""
+    rng = np.random.default_rng(seed)
+    height, width = rng.integers(5, 90, 2)
+    blots = gaussian_filter(rng.normal(size=(height, width)), rng.uniform(0.5, 4))
+    image = np.clip(127 + rng.uniform(20, 900) * blots / blots.std(), 0, 255)
+    assert len(trace(np.rint(image).astype(np.uint8))) > 0
