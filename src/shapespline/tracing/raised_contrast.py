@@ -16,13 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from shapespline.tracing.edges import (
-    EVEN,
-    REACH,
-    level_shares,
-    places_across,
-    profiles_across,
-)
+from shapespline.tracing.edges import EVEN, drawn_shares, level_shares
 from shapespline.tracing.inks import softness_of
 from shapespline.tracing.layer import Layer, strips
 from shapespline.tracing.level import with_values
@@ -79,7 +73,8 @@ def as_parts(field: Field, found: Crossings) -> Field | None:
     grey = np.flatnonzero((parts > 0) & (parts < 1))
     lower = replace(field, values=Layer(parts), cut=0.5, light=True, contrast=1.0, middle=0.5)
     for straight in ROUNDS:
-        border = _Border.along(lower, found, outlines, _places(lower, found), straight)
+        shares = drawn_shares(lower, found, level_shares(lower, found)).shares
+        border = _Border.along(lower, found, outlines, found.places(height, shares), straight)
         tone = _Tone.of(field, border, even) or tone
         parts.flat[grey] = tone(greys.flat[grey].astype(np.float64))
         _fill(parts, greys, border, tone, even)
@@ -210,14 +205,6 @@ def _tells(part: Crossings, edges: Parabolas) -> BoolArray:
     x, y = np.abs(edges.direction).T
     slope = np.where(part.upright, y, x) / np.maximum(np.where(part.upright, x, y), 1e-9)
     return np.asarray((slope > TELLING[0]) & (slope < TELLING[1]))
-
-
-def _places(field: Field, found: Crossings) -> FloatArray:
-    """Where the grey puts crossings, or the level where that puts them nowhere."""
-    across = places_across(profiles_across(field, found), EVEN, pure=True)
-    ahead = np.where(found.ink_first, REACH - across, across - REACH) + 0.5
-    shares = np.where(np.isnan(ahead), level_shares(field, found), ahead)
-    return found.places(field.shape[0], shares)
 
 
 def _fill(
