@@ -16,20 +16,18 @@ from shapespline.engines.drawn.estimated import MOST_WRONG, Estimated, begun, es
 from shapespline.engines.drawn.fillets import rows_with_fillets
 from shapespline.engines.drawn.judgement import (
     has_blunt_arcs,
-    is_enough,
     is_plain,
     is_short,
-    share,
     tell_by_direction,
     without_few,
 )
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn
+from shapespline.engines.drawn.readings import read_as, rough
 from shapespline.engines.drawn.regularities import NAMES, Search
 from shapespline.engines.drawn.repeats import free_runs, rows_repeated
 from shapespline.engines.drawn.segments import (
-    ARC,
     FREE,
     FREE_PARAMETERS,
     PRICE,
@@ -39,11 +37,11 @@ from shapespline.engines.drawn.segments import (
     supported,
 )
 from shapespline.engines.drawn.sharing import shared_anew
-from shapespline.engines.drawn.supposed import NEARLY, suppositions
-from shapespline.engines.drawn.whole_circle import ROUND, whole_circle
+from shapespline.engines.drawn.supposed import suppositions
+from shapespline.engines.drawn.whole_circle import whole_circle
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Iterator
+    from collections.abc import Callable, Collection, Iterable
 
     from shapespline.engines.drawn.segments import Segment
     from shapespline.engines.drawn.supposed import Supposition
@@ -55,26 +53,10 @@ FEWEST_POINTS = 12
 # An outline of more elements than these that have fewer points each is none that was drawn, which
 # takes long to find out (DRA-10).
 MANY_ELEMENTS, POINTS_EACH = 40, 5
-# A picture is taken for drawn so many times less exactly than others where that saves so many
-# parameters a pixel: some renderers draw curves as polygons. Never by more than that part of a
-# pixel in the mean: not one of one bit. A free-form run counts once for so many pixels (DRA-13).
-# Where lines and arcs alone are left, two of them and that part of all are enough (DRA-22).
-ROUGH, ROUGHEST, SAVED, LONG = 3.0, 0.3, 0.03, 25.0
-LEAST_SAVED, SAVED_PART = 6.0, 0.1
-# Where a tolerance or that part leaves room for less, as much as they do, but at least so much
-# (DRA-55).
-LEAST_ROUGH = 1.2
-# Nobody draws arcs of so many times the extent of an outline: errors bend its edges (DRA-54).
-IMMENSE = 20.0
-# What such a telling holds in part only gives way to the exact one, unless that is so many times
-# longer, as chords of curves are (DRA-29).
-CHORDS = 1.33
 # Points of unknown errors that are free-form in a larger part are no lines and arcs (DRA-47).
 MOST_FREE = 0.35
 # Stored points of a line and of a circle, than which nothing open or closed is simpler.
 SIMPLEST_OPEN, SIMPLEST_CLOSED = 1, 2
-# Part of exact points that lines and arcs make up where the rest may be such (DRA-49).
-MOST_EXACT = 0.8
 # Rows with more segments are found at that part of their price (DRA-38).
 FINER = 0.5
 
@@ -114,9 +96,9 @@ def as_drawn(
         return None
     seen = Observed.of(contour, accuracy)
     ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
-    best = _circle(_rough(seen, tolerance) or seen)
+    best = _circle(rough(seen, tolerance) or seen)
     if best is None:
-        best = _first_told(_readings(seen, tolerance), ends, regularities, tolerance)
+        best = _first_told(read_as(seen, tolerance), ends, regularities, tolerance)
     if accuracy is not None:
         return best
     return _simplest(
@@ -316,77 +298,3 @@ def _is_preferred(alike: Estimated, best: Estimated) -> bool:
     """Whether parts that are read alike need fewer free-form runs, or are told for less."""
     more = free_runs(alike.model.row) - free_runs(best.model.row)
     return more < 0 or alike.cost + PRICE * FREE_PARAMETERS * more <= best.cost
-
-
-def _rough(seen: Observed, tolerance: float) -> Observed | None:
-    """A picture's outline taken for less exact, where a tolerance leaves room for that."""
-    room = min(tolerance, ROUGHEST * seen.pixel)
-    rough = min(ROUGH, room / (ROUND * seen.largest_deviation))
-    return seen.rougher(rough) if seen.pixel and rough >= LEAST_ROUGH else None
-
-
-def _readings(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segments, bool]]:
-    """The outline as its picture shows it, or less exact where that is much shorter or straighter.
-
-    What is a little shorter counts if it holds as a whole: lines through a bend are, too. What
-    tells no drawing may do so if it is taken for less exact: its elements are estimated anew with
-    larger errors, then looked for with these, then with errors that are slow, too.
-    """
-    row, rough = segmented(seen), _rough(seen, tolerance)
-    if rough is None:
-        yield from _nearly_exact(seen, row)
-        yield seen, row, False
-        return
-    again = segmented(rough, row) if row.n_parameters(LONG * seen.pixel) >= LEAST_SAVED else row
-    if _is_shorter(again, row, seen.pixel) or _is_straighter(again, row, seen):
-        long = LONG * seen.pixel
-        if row.n_parameters(long) <= CHORDS * again.n_parameters(long):
-            yield rough, again, True
-            yield seen, row, False
-    else:
-        yield seen, row, False
-        if not is_enough(row):
-            return
-        yield rough, row, False
-    yield rough, again, False
-    slow = rough.slow()
-    yield slow, segmented(slow, row), False
-
-
-def _nearly_exact(seen: Observed, row: Segments) -> Iterator[tuple[Observed, Segments, bool]]:
-    """Exact points that are nearly so, if all of them then are lines and arcs.
-
-    Few points of an arc, some of which lie beside a node, may be told by nothing else. Lines and
-    arcs that no exact point contradicts come first.
-    """
-    if not seen.exact or share(row) < MOST_EXACT:
-        return
-    if share(row) == 1.0:
-        yield seen, row, True
-    nearly = seen.less_exact(NEARLY * seen.deviation, exact=True)
-    again = segmented(nearly)
-    if share(again) == 1.0:
-        yield nearly, again, True
-
-
-def _is_straighter(again: Segments, row: Segments, seen: Observed) -> bool:
-    """Whether no more lines and arcs tell what is arcs of immense radius otherwise, by errors."""
-    if len(again.found) > len(row.found) or any(kind == FREE for *_, kind in again.found):
-        return False
-    model, again_model = Model.of(seen, row), Model.of(seen, again)
-    return _n_immense(model) > _n_immense(again_model)
-
-
-def _n_immense(model: Model) -> int:
-    """How many arcs have a radius that nobody draws."""
-    largest = IMMENSE * model.extent
-    return sum(model.kind(k) == ARC and model.x[o + 2] > largest for k, o in model.at.items())
-
-
-def _is_shorter(again: Segments, row: Segments, pixel: float) -> bool:
-    """Whether segments are so much shorter to tell than others that errors are behind these."""
-    told = row.n_parameters(LONG * pixel)
-    saved = told - again.n_parameters(LONG * pixel)
-    if all(segment.kind != FREE for segment in again.found):
-        return saved >= max(LEAST_SAVED, SAVED_PART * told)
-    return saved > SAVED * row.stations[-1] / pixel
