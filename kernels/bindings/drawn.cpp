@@ -67,12 +67,13 @@ void bind_drawn(nb::module_ &m) {
              nb::kw_only(), "line_line_smooth"_a, "line_arc_smooth"_a, "arc_arc_smooth"_a,
              "arc_arc_corner"_a, "line_free_smooth"_a, "arc_free_smooth"_a, "free_corner"_a,
              "arc_free_corner"_a);
+    nb::class_<drawn::NodeLengths>(m, "NodeLengths")
+        .def(nb::init<double, double, double>(), nb::kw_only(), "skip"_a, "shortest"_a, "gap"_a);
     nb::class_<drawn::SegmentationSettings>(m, "SegmentationSettings")
-        .def(nb::init<double, double, double, double, double, double, std::int64_t,
+        .def(nb::init<double, drawn::NodeLengths, double, double, double, std::int64_t,
                       drawn::JointPrices>(),
-             nb::kw_only(), "deviation"_a, "skip"_a, "shortest"_a, "price"_a, "free_parameters"_a,
-             "smooth_turn"_a,
-             "stride"_a, "joints"_a);
+             nb::kw_only(), "deviation"_a, "lengths"_a, "price"_a, "free_parameters"_a,
+             "smooth_turn"_a, "stride"_a, "joints"_a);
     m.def(
         "drawn_pieces",
         [](In2 points, In1 stations, In1 weights, InIndices candidates, InIndices nodes,
@@ -107,21 +108,22 @@ void bind_drawn(nb::module_ &m) {
             "__init__",
             [](drawn::Elements *made, const std::vector<bool> &is_line,
                std::vector<std::int64_t> at, std::vector<std::int64_t> begins, In2 points,
-               In1 weights, double deviation) {
+               In1 weights, In1 counts, double deviation) {
                 const auto data = vectors(points);
-                const auto weighed = numbers(weights);
+                const auto weighed = numbers(weights), counted = numbers(counts);
                 new (made) drawn::Elements({is_line.begin(), is_line.end()}, std::move(at),
                                            std::move(begins), {data.begin(), data.end()},
-                                           {weighed.begin(), weighed.end()}, deviation);
+                                           {weighed.begin(), weighed.end()},
+                                           {counted.begin(), counted.end()}, deviation);
             },
             "is_line"_a, "at"_a, "begins"_a, "points"_a.noconvert(), "weights"_a.noconvert(),
-            "deviation"_a)
+            "counts"_a.noconvert(), "deviation"_a)
         .def(
             "misfits",
             [](const drawn::Elements &self, In1 x) {
                 std::vector<std::tuple<double, double, double>> misfits;
                 for (const drawn::Misfit &one : self.misfits(numbers(x)))
-                    misfits.emplace_back(one.chi_sq, one.weight, one.largest);
+                    misfits.emplace_back(one.chi_sq, one.count, one.largest);
                 return misfits;
             },
             "x"_a.noconvert())

@@ -35,7 +35,8 @@ Told told_by(const std::vector<Vec2> &points, double deviation,
     for (std::size_t i = 1; i < points.size(); ++i)
         stations.push_back(stations.back() + norm(points[i] - points[i - 1]));
     const double step = stations.back() / static_cast<double>(points.size() - 1);
-    const SegmentationSettings settings{deviation, 0.0, 2.5 * step, 4.0, 4.0, 0.14, 4, kJoints};
+    const SegmentationSettings settings{deviation, {0.0, 2.5 * step, 2.5 * step}, 4.0, 4.0,
+                                        0.14, 4, kJoints};
     Segmentation search(points, stations, weights, {}, {}, directions, settings);
     auto pieces = search.run();
     return {std::move(pieces), search.cost()};

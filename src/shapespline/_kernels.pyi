@@ -341,13 +341,21 @@ class JointPrices:
         arc_free_corner: float,
     ) -> None: ...
 
+class NodeLengths:
+    def __init__(
+        self,
+        *,
+        skip: float,  # points this near to a node do not count
+        shortest: float,  # of a piece
+        gap: float,  # longest step beside which a corner may lie between two points
+    ) -> None: ...
+
 class SegmentationSettings:
     def __init__(
         self,
         *,
         deviation: float,
-        skip: float,
-        shortest: float,
+        lengths: NodeLengths,
         price: float,  # nats per parameter
         free_parameters: float,  # of a free-form curve
         smooth_turn: float,  # tangent
@@ -382,12 +390,13 @@ class Elements:
         begins: list[int],
         points: FloatArray,  # (n, 2)
         weights: FloatArray,  # (n,)
+        counts: FloatArray,  # (n,), the weights if all points are as sure
         deviation: float,
     ) -> None: ...
     def misfits(
         self,
         x: FloatArray,  # (n,)
-    ) -> list[tuple[float, float, float]]: ...  # chi squared, sum of weights, largest distance
+    ) -> list[tuple[float, float, float]]: ...  # chi squared, what points count, largest distance
     def covariance(
         self,
         x: FloatArray,  # (n,)

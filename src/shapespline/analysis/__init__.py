@@ -40,6 +40,7 @@ from shapespline.analysis.run_averages import (
     joint,
 )
 from shapespline.analysis.shared_boundaries import shared_arcs
+from shapespline.analysis.slow_noise import slow_noise
 from shapespline.analysis.straight_runs import (
     FEWEST_STRAIGHT,
     STRAIGHT_PART,
@@ -47,6 +48,7 @@ from shapespline.analysis.straight_runs import (
     has_straight_runs,
     with_points_on_lines,
 )
+from shapespline.analysis.uneven_noise import precisions
 
 __all__ = [
     "FEWEST_STRAIGHT",
@@ -89,9 +91,11 @@ __all__ = [
     "neighbours_to_average",
     "noise_level",
     "order_points",
+    "precisions",
     "resolution",
     "rounded",
     "shared_arcs",
+    "slow_noise",
     "tells_noise",
     "with_points_between",
     "with_points_on_lines",

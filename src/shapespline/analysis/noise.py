@@ -37,7 +37,7 @@ _POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
 _FIT = np.linalg.pinv(_POWERS)
 _SLOPE_AND_REST = np.column_stack([_FIT[-2], np.eye(len(_POWERS)) - _POWERS @ _FIT])
 # Median of a chi-squared variable with the 3 degrees of freedom that a cubic leaves of 7 points.
-_CHI_SQUARED_MEDIAN = 2.365974
+CHI_SQUARED_MEDIAN = 2.365974
 
 
 class Scatter(NamedTuple):
@@ -98,22 +98,37 @@ def left_of_cubics(contour: Contour) -> float:
     >>> 0.002 < left_of_cubics(circle) < 0.003
     True
     """
-    width = 2 * HALF_WINDOW + 1
-    points = contour.points - contour.points[0]
-    if contour.closed:
-        points = np.concatenate([points[-HALF_WINDOW:], points, points[:HALF_WINDOW]])
-    n_windows = len(points) - width + 1
+    n_windows = len(contour) - (0 if contour.closed else 2 * HALF_WINDOW)
     if n_windows < 1:
         return 0.0
-    step = max(1, n_windows // MOST_WINDOWS)
+    left = left_in_windows(contour.points, contour.closed, max(1, n_windows // MOST_WINDOWS))
+    return float(np.sqrt(median(left) / CHI_SQUARED_MEDIAN))
+
+
+def left_in_windows(points: FloatArray, closed: bool, step: int = 1) -> FloatArray:
+    """Sums of squares that cubics leave across the outline of every so many-th window of seven.
+
+    Each has three degrees of freedom. Those of a closed outline are about its points, those of an
+    open one about all but three at either end.
+
+    Examples
+    --------
+    >>> points = np.column_stack([np.arange(8.0), np.zeros(8)])
+    >>> left_in_windows(points, closed=False).round(12).tolist()
+    [0.0, 0.0]
+    """
+    width = 2 * HALF_WINDOW + 1
+    points = points - points[0]
+    if closed:
+        points = np.concatenate([points[-HALF_WINDOW:], points, points[:HALF_WINDOW]])
+    n_windows = len(points) - width + 1
     windows = np.empty((2, len(range(0, n_windows, step)), width))
     for k in range(width):
         windows[:, :, k] = points[k : k + n_windows : step].T
     x, y = (axis @ _SLOPE_AND_REST for axis in windows)
     across = x[:, 1:] * y[:, :1] - y[:, 1:] * x[:, :1]
     speed_sq = np.maximum(x[:, 0] ** 2 + y[:, 0] ** 2, np.finfo(float).tiny)
-    level_sq = median((across**2).sum(axis=1) / speed_sq) / _CHI_SQUARED_MEDIAN
-    return float(np.sqrt(level_sq))
+    return np.asarray((across**2).sum(axis=1) / speed_sq)
 
 
 def largest_bulge(contour: Contour) -> float:

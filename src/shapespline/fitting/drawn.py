@@ -85,7 +85,7 @@ class DrawnPieces:
                     continue
                 dearer = RUNS_DEARER if reading.has_runs else 0.0
                 proposed.append((cost + dearer, candidate, reading))
-                if not reading.has_runs and self._needs_no_other(cost):
+                if not reading.has_runs and self._needs_no_other(cost, reading):
                     break
         if not proposed:
             return
@@ -109,14 +109,14 @@ class DrawnPieces:
             mirrored = len(found.parts) == 1 or any(o.name == "mirror" for o in found.regularities)
             if symmetric and not mirrored and MirroredHalf.of(problem.thinned):
                 return
-            for one in (found, found.otherwise):
-                if one is None:
-                    continue
+            one: Drawn | None = found
+            while one is not None:
                 if not (noisy and one.has_runs):
                     yield one
                 elif one.share >= 1.0 - LITTLE_FREE:
                     # What chains of elements left is no run, unless it is little (DRA-51).
                     yield replace(one, is_told=False)
+                one = one.otherwise
         if noisy and not (of_picture or symmetric):
             yield from problem.between_corners
 
@@ -190,11 +190,11 @@ class DrawnPieces:
         noise = (self.estimation.shown if clean else self.estimation.means).noise * scale
         return MeasuredRuns(degree, noise, monitor, clean=clean)
 
-    def _needs_no_other(self, cost: float) -> bool:
+    def _needs_no_other(self, cost: float, drawn: Drawn) -> bool:
         """Whether one spline costs so much more that no curves between corners need be tried."""
         if self.estimation is None or self.estimation.shown.clean:
             return True
-        return cost <= self.estimation.smooth.cost - DRAWN_DEARER
+        return cost <= self.estimation.supposing(drawn.precisions).smooth.cost - DRAWN_DEARER
 
     def _is_evident(
         self, candidate: Candidate, drawn: Drawn, problem: Problem, monitor: Monitor
@@ -212,6 +212,7 @@ class DrawnPieces:
             if not _has_arcs_and_clear_corners(candidate.pieces, closed=contour.closed):
                 return False
             estimation = Estimation(problem, monitor)
+        estimation = estimation.supposing(drawn.precisions)
         cost = _told_by(estimation, candidate, drawn)
         saved = 0.0 if cost is None else estimation.smooth.cost - cost
         return saved >= SAVED * len(candidate.pieces)
@@ -234,11 +235,14 @@ class DrawnPieces:
         if self.estimation is None:
             return 0.0
         contour, shown = problem.contour, self.estimation.shown
-        found = two_sided_distance(joined(candidate.pieces, problem.request.style.degree), contour)
+        curve = joined(candidate.pieces, problem.request.style.degree)
+        found = two_sided_distance(curve, contour)
         # What was not drawn is a curve like others, and those follow what clean points tell.
         # What lines and arcs alone tell of errors does not show in the points.
         supposed = NOISE_BAND * drawn.supposed / problem.upright.scale
         farthest = beyond = FARTHEST * (shown.band + supposed)
+        if drawn.precisions is not None:  # all points may be off by more than neighbours tell
+            beyond /= min(1.0, median(drawn.precisions)) ** 0.5
         if not drawn.is_told:  # a curve like others, and those follow what clean points tell
             farthest = min(farthest, FARTHEST * shown.told)
         step = median(np.diff(contour.arc_length))
@@ -254,12 +258,17 @@ class DrawnPieces:
         else:
             # Corners lie between points, those of a right angle half a step from their chord.
             beyond = max(beyond, step if not drawn.has_runs or shown.clean else 0.5 * step)
-        if found.max_distance > farthest or found.reverse_distance > beyond:
+            if drawn.is_told and not drawn.has_runs:  # where points are missing, too
+                beyond = max(beyond, 0.5 * float(np.diff(contour.arc_length).max()))
+        estimation = self.estimation.supposing(drawn.precisions)
+        alike = estimation is self.estimation
+        missed = found.max_distance if alike else estimation.means.farthest(curve)
+        if missed > farthest or found.reverse_distance > beyond:
             return None
         # What is left of a picture's slow errors is no noise.
         if accuracy is not None or shown.clean:
             return 0.0
-        return _told_by(self.estimation, candidate, drawn)
+        return _told_by(estimation, candidate, drawn)
 
 
 def _has_arcs_and_clear_corners(pieces: tuple[Piece, ...], *, closed: bool) -> bool:

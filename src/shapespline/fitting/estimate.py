@@ -8,6 +8,7 @@ errors.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -124,8 +125,11 @@ class Estimation:
     """What the points of a problem tell of the curve behind them, found once.
 
     ``ordered`` are the points in canonical order, data units; ``shown`` what they can show;
-    ``width`` how many neighbours are averaged.
+    ``width`` how many neighbours are averaged; ``precisions`` those of the points over that of
+    most, where they are supposed not to be alike.
     """
+
+    precisions: FloatArray | None
 
     def __init__(self, problem: Problem, monitor: Monitor) -> None:
         contour = problem.contour
@@ -136,15 +140,26 @@ class Estimation:
         self.shown: Resolution = resolution(self.ordered, of_picture=contour.level_line is not None)
         self._degree, self._monitor = problem.request.style.degree, monitor
         self._ends = problem.request.constraints.ends
-        self.width = 1
+        self.width, self.precisions = 1, None
         if not (self.shown.clean or problem.request.style.names_corners):
             points, closed = self.ordered.points, contour.closed
             self.width = neighbours_to_average(points, closed, self.shown.noise)
 
+    def supposing(self, precisions: FloatArray | None) -> Estimation:
+        """The same of points, in canonical order, with such precisions over that of most."""
+        if precisions is None or self.width > 1:
+            return self
+        other = copy(self)
+        for known in ("means", "_noise", "_tried", "start", "smooth"):
+            other.__dict__.pop(known, None)
+        other.precisions = precisions
+        return other
+
     @cached_property
     def means(self) -> Means:
         """Of the points, data units."""
-        return self.means_of(self.ordered, self.shown.noise)
+        means = self.means_of(self.ordered, self.shown.noise)
+        return means._replace(precisions=self.precisions)
 
     def means_of(self, contour: Contour, noise: float) -> Means:
         """Of the points in another unit."""
@@ -153,14 +168,16 @@ class Estimation:
     @cached_property
     def _noise(self) -> float:
         """That sizes are compared by."""
-        contour, noise = self.means
+        contour, noise, _ = self.means
         return noise_of(contour, noise if self.width > 1 else None)
 
     @cached_property
     def _tried(self) -> list[Smoothed]:
         """Splines over all points, of several sizes."""
         contour = self.means.contour
-        return sizes_tried(contour, self._degree, self._noise, monitor=self._monitor)
+        return sizes_tried(
+            contour, self._degree, self._noise, self.precisions, monitor=self._monitor
+        )
 
     @cached_property
     def start(self) -> Balanced:
@@ -246,7 +263,7 @@ class ObservedPieces:
         request, normalized = problem.request, self.estimation.normalized
         shown, degree = self.estimation.shown, request.style.degree
         means = self.estimation.means_of(normalized.contour, shown.noise * normalized.scale)
-        work, noise = means
+        work, noise, _ = means
         runs = Runs(work, min(degree, PIECE_DEGREE), noise, monitor)
         at, worth = self._corners(problem, runs)
         points, size = runs.joined(at)

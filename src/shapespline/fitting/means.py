@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis import means_of
-from shapespline.geometry import two_sided_distance
+from shapespline.geometry import nearest, two_sided_distance
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
+    from shapespline.typing import FloatArray
     from shapespline.values import BSplineCurve
 
 # An open outline of means begins half a step before the first, as the next so many lead (FIT-23).
@@ -22,10 +23,12 @@ class Means(NamedTuple):
 
     Points that scatter by more than their steps are nearest to a curve anywhere: one that winds
     through them seems to fit better, and one through their middle is drawn in where it bends.
+    Points that are not averaged may have precisions of their own, over that of most.
     """
 
     contour: Contour
     noise: float
+    precisions: FloatArray | None = None
 
     @classmethod
     def of(cls, contour: Contour, noise: float, width: int, ends: bool) -> Means:
@@ -44,5 +47,18 @@ class Means(NamedTuple):
 
     def misfit(self, curve: BSplineCurve) -> float:
         """Chi squared of a curve."""
+        if self.precisions is not None:
+            return float(self.precisions @ self._away(curve) ** 2) / self.noise**2
         far = two_sided_distance(curve, self.contour).rms_distance
         return len(self.contour) * (far / self.noise) ** 2
+
+    def farthest(self, curve: BSplineCurve) -> float:
+        """How far a point is from a curve at most, each for how sure it is."""
+        away = self._away(curve)
+        if self.precisions is not None:
+            away = away * np.sqrt(np.minimum(self.precisions, 1.0))
+        return float(away.max())
+
+    def _away(self, curve: BSplineCurve) -> FloatArray:
+        away = curve(nearest(curve, self.contour.points).parameters) - self.contour.points
+        return np.hypot(away[:, 0], away[:, 1])

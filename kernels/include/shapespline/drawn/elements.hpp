@@ -40,41 +40,43 @@ inline Block inverse_of(Block a, std::size_t size) {
 }
 
 // Of one element: the half gradient and Hessian of the weighted sum of squared distances, that sum,
-// the sum of weights and the largest distance.
+// what its points count together and the largest distance, of each as if it were as sure as most.
 struct Across {
     Block hessian{};
     std::array<double, 3> gradient{};
-    double sum_sq = 0.0, weight = 0.0, largest = 0.0;
+    double sum_sq = 0.0, count = 0.0, largest = 0.0;
 
-    void add(double off, double w, const std::array<double, 3> &slope, std::size_t size) {
+    // A point that counts `n` has the weight n unless it is less sure than others, or surer.
+    void add(double off, double w, double n, const std::array<double, 3> &slope,
+             std::size_t size) {
         for (std::size_t i = 0; i < size; ++i) {
             gradient[i] += w * slope[i] * off;
             for (std::size_t j = 0; j < size; ++j) hessian[i][j] += w * slope[i] * slope[j];
         }
         sum_sq += w * off * off;
-        weight += w;
-        largest = std::max(largest, std::abs(off));
+        count += n;
+        largest = std::max(largest, std::abs(w == n ? off : off * std::sqrt(w / n)));
     }
 };
 
 inline Across across_line(std::span<const Vec2> points, std::span<const double> weights,
-                          double direction, double offset) {
+                          std::span<const double> counts, double direction, double offset) {
     Across found;
     const double c = std::cos(direction), s = std::sin(direction);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto [x, y] = points[i];
-        found.add(c * y - s * x - offset, weights[i], {-c * x - s * y, -1.0, 0.0}, 2);
+        found.add(c * y - s * x - offset, weights[i], counts[i], {-c * x - s * y, -1.0, 0.0}, 2);
     }
     return found;
 }
 
 inline Across across_circle(std::span<const Vec2> points, std::span<const double> weights,
-                            Vec2 centre, double radius) {
+                            std::span<const double> counts, Vec2 centre, double radius) {
     Across found;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec2 out = points[i] - centre;
         const double far = std::max(norm(out), 1e-300);
-        found.add(far - radius, weights[i], {-out.x / far, -out.y / far, -1.0}, 3);
+        found.add(far - radius, weights[i], counts[i], {-out.x / far, -out.y / far, -1.0}, 3);
     }
     return found;
 }
@@ -120,9 +122,9 @@ inline std::pair<Vec2, double> circle_through(std::span<const Vec2> points,
     Vec2 centre = taubin.centre;
     double radius = taubin.radius > 0.0 ? taubin.radius : kFlat;
     for (int round = 0; round < kRounds; ++round) {
-        const Across off = across_circle(unit, weights, centre, radius);
+        const Across off = across_circle(unit, weights, weights, centre, radius);
         Block hessian = off.hessian;
-        for (std::size_t i = 0; i < 3; ++i) hessian[i][i] += kNothing * off.weight;
+        for (std::size_t i = 0; i < 3; ++i) hessian[i][i] += kNothing * off.count;
         const Block inverse = inverse_of(hessian, 3);
         std::array<double, 3> step{};
         double largest = 1e-300;
@@ -137,9 +139,9 @@ inline std::pair<Vec2, double> circle_through(std::span<const Vec2> points,
     return {middle + size * centre, size * radius};
 }
 
-// What an element misses its points by: chi squared, the sum of weights, the largest distance.
+// What an element misses its points by: chi squared, what these count, the largest distance.
 struct Misfit {
-    double chi_sq, weight, largest;
+    double chi_sq, count, largest;
 };
 
 // Lines and circles that together have a vector of unknowns, each with points of its own.
@@ -148,9 +150,9 @@ class Elements {
     // Element k has the unknowns from `at[k]` on and the points from `begins[k]` to the next.
     Elements(std::vector<char> is_line, std::vector<std::int64_t> at,
              std::vector<std::int64_t> begins, std::vector<Vec2> points,
-             std::vector<double> weights, double deviation)
+             std::vector<double> weights, std::vector<double> counts, double deviation)
         : is_line_(std::move(is_line)), at_(std::move(at)), begins_(std::move(begins)),
-          points_(std::move(points)), weights_(std::move(weights)),
+          points_(std::move(points)), weights_(std::move(weights)), counts_(std::move(counts)),
           precision_(1.0 / (deviation * deviation)) {}
 
     std::size_t size() const { return at_.size(); }
@@ -167,7 +169,7 @@ class Elements {
         std::vector<Misfit> found;
         for (std::size_t k = 0; k < size(); ++k) {
             const Across off = across(k, x);
-            found.push_back({precision_ * off.sum_sq, off.weight, off.largest});
+            found.push_back({precision_ * off.sum_sq, off.count, off.largest});
         }
         return found;
     }
@@ -203,7 +205,7 @@ class Elements {
             }
             block = inverse_of(block, n);
             // Points that scatter by more than was thought tell less.
-            const double freedom = std::max(off.weight - static_cast<double>(n), 1.0);
+            const double freedom = std::max(off.count - static_cast<double>(n), 1.0);
             const double worse = std::max(precision_ * off.sum_sq / freedom, 1.0);
             for (std::size_t i = 0; i < n; ++i) {
                 for (std::size_t j = 0; j < n; ++j) block[i][j] *= worse;
@@ -226,15 +228,16 @@ class Elements {
         const std::size_t last = k + 1 < size() ? begins_[k + 1] : points_.size();
         const auto points = std::span(points_).subspan(first, last - first);
         const auto weights = std::span(weights_).subspan(first, last - first);
+        const auto counts = std::span(counts_).subspan(first, last - first);
         const double *own = x.data() + at_[k];
-        return is_line_[k] ? across_line(points, weights, own[0], own[1])
-                           : across_circle(points, weights, {own[0], own[1]}, own[2]);
+        return is_line_[k] ? across_line(points, weights, counts, own[0], own[1])
+                           : across_circle(points, weights, counts, {own[0], own[1]}, own[2]);
     }
 
     std::vector<char> is_line_;
     std::vector<std::int64_t> at_, begins_;
     std::vector<Vec2> points_;
-    std::vector<double> weights_;
+    std::vector<double> weights_, counts_;
     double precision_;
 };
 

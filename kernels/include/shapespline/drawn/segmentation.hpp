@@ -38,8 +38,8 @@ class Segmentation {
         dearest_joint_ = settings.price * settings.joints.dearest();
         // A stretch whose misfit is beyond noise by so much is given up.
         limit_ = 80.0 + 0.6 * std::min(moments_.weight(0, n_ - 1), 400.0);
-        near_[0] = beside(settings.skip);
-        near_[1] = beside(0.5 * settings.skip);
+        near_[0] = beside(settings.lengths.skip);
+        near_[1] = beside(0.5 * settings.lengths.skip);
         lay_candidates(candidates, nodes);
         find_corners();
     }
@@ -129,7 +129,7 @@ class Segmentation {
 
     // The points that count of a piece between two nodes: of short ones more.
     Stretch counted(std::size_t i, std::size_t j) const {
-        const Beside &near = near_[s_[j] - s_[i] < kLong * settings_.skip];
+        const Beside &near = near_[s_[j] - s_[i] < kLong * settings_.lengths.skip];
         Stretch found{near.after[i], near.before[j]};
         if (found.last < found.first + 2) found = {std::min(i + 1, j), j > 0 ? j - 1 : 0};
         if (found.last < found.first + 2) found = {i, j};
@@ -171,9 +171,9 @@ class Segmentation {
     void extend_primitives(Primitives &from, std::size_t j) {
         const std::size_t i = from.i;
         const double price = settings_.price, length = s_[j] - s_[i];
-        if (length < settings_.shortest) return;
-        const bool is_long = length >= kLong * settings_.skip;
-        const bool may_be_last = length > 3.0 * settings_.shortest;
+        if (length < settings_.lengths.shortest) return;
+        const bool is_long = length >= kLong * settings_.lengths.skip;
+        const bool may_be_last = length > 3.0 * settings_.lengths.shortest;
         const double least_line = (directions_.empty() ? 2.0 : 1.0) * price;
         const bool may_gain = from.least + from.line + least_line <= most_at(j, kLine) ||
                               from.least + from.arc + 3.0 * price <= most_at(j, kArc);
@@ -203,7 +203,7 @@ class Segmentation {
     // Whether the outline turns at a point or at the next one by as much as half a corner does.
     void find_corners() {
         corner_behind_.assign(n_, 0);
-        if (settings_.skip > 0.0) return;
+        if (settings_.lengths.skip > 0.0) return;
         std::vector<char> turns(n_ + 1, 0);
         const bool closed = norm(points_[0] - points_[n_ - 1]) == 0.0;
         for (std::size_t k = closed ? 0 : 1; k + 1 < n_; ++k) {
@@ -214,7 +214,7 @@ class Segmentation {
         }
         for (std::size_t i = 0; i + 1 < n_; ++i)
             corner_behind_[i] = (turns[i] || turns[i + 1]) &&
-                                s_[i + 1] - s_[i] < settings_.shortest;
+                                s_[i + 1] - s_[i] < settings_.lengths.gap;
     }
 
     // A line and an arc through the points that count.
@@ -243,7 +243,7 @@ class Segmentation {
         // What an arc that is looked at leaves at most: it is the cheapest, or tells whether longer
         // ones, or those without the first point, are looked at.
         double most = most_at(j, kArc) - from.least - rest - 3.0 * price;
-        if (left.beyond > limit_ && s_[j] - s_[i] < kLong * settings_.skip)
+        if (left.beyond > limit_ && s_[j] - s_[i] < kLong * settings_.lengths.skip)
             most = std::max(most, limit_ + noise);
         if (left.beyond > price && between_points(i, j)) most = std::max(most, price + noise);
         const auto dearer = [&](double of_arc) {

@@ -30,10 +30,15 @@ struct JointPrices {
     }
 };
 
+struct NodeLengths {
+    double skip;      // points this near to a node do not count
+    double shortest;  // length of a piece
+    double gap;       // longest step beside which a corner may lie between two points
+};
+
 struct SegmentationSettings {
     double deviation;   // of a point across the outline
-    double skip;        // points this near to a node do not count
-    double shortest;    // length of a piece
+    NodeLengths lengths;
     double price;       // nats per parameter
     double free_parameters;  // of a free-form curve
     double smooth_turn; // tangent of the largest turn of a smooth joint

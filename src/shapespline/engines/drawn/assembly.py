@@ -13,6 +13,7 @@ from shapespline.engines.drawn.ends import (
     last_on,
     misses,
     nodes_of,
+    off_by,
     sweep_of,
 )
 from shapespline.engines.drawn.joints import direction_at
@@ -68,7 +69,11 @@ def assembled(model: Model, found: list[Regularity], tolerance: float, told: boo
         if (one.name != "equal-length" or cut.isdisjoint(one.pieces))
         and (one.name in WHOLE or moved.isdisjoint(one.pieces))
     )
-    return merged(Drawn(tuple(parts), kept, told, model.n_free), closed=model.seen.closed)
+    drawn = Drawn(tuple(parts), kept, told, model.n_free)
+    if not model.seen.pixel:
+        off = [off_by(model, k, model.counted(k)[0]) for k in model.at]
+        drawn = drawn.with_distances(off)
+    return merged(drawn, closed=model.seen.closed)
 
 
 def _element(model: Model, k: int, begin: FloatArray, end: FloatArray) -> DrawnLine | DrawnArc:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,11 +38,11 @@ from shapespline.engines.drawn.segments import (
     supported,
 )
 from shapespline.engines.drawn.sharing import shared_anew
-from shapespline.engines.drawn.supposed import suppositions
+from shapespline.engines.drawn.supposed import drifting, suppositions, unsure
 from shapespline.engines.drawn.whole_circle import whole_circle
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable
+    from collections.abc import Callable, Collection, Iterable, Sequence
 
     from shapespline.engines.drawn.segments import Segment
     from shapespline.engines.drawn.supposed import Supposition
@@ -57,6 +58,9 @@ MANY_ELEMENTS, POINTS_EACH = 40, 5
 MOST_FREE = 0.35
 # Stored points of a line and of a circle, than which nothing open or closed is simpler.
 SIMPLEST_OPEN, SIMPLEST_CLOSED = 1, 2
+# Stored points that readings by other errors spare at least (DRA-57).
+CLEARLY = 2
+TINY = np.finfo(float).tiny
 # Rows with more segments are found at that part of their price (DRA-38).
 FINER = 0.5
 
@@ -101,12 +105,47 @@ def as_drawn(
         best = _first_told(read_as(seen, tolerance), ends, regularities, tolerance)
     if accuracy is not None:
         return best
-    return _simplest(
-        best,
-        suppositions(contour, seen),
-        lambda one: _supposed(one, ends, regularities, tolerance),
-        SIMPLEST_CLOSED if seen.closed else SIMPLEST_OPEN,
-    )
+
+    def read(one: Supposition) -> Drawn | None:
+        return _supposed(one, ends, regularities, tolerance)
+
+    others = [read(one) for one in unsure(contour, seen)]
+    if best is None or best.has_runs or best.errors_go_on:
+        others.append(_shortest(map(read, drifting(contour, seen)), len(seen.points)))
+    best = _by_size(best, others)
+    simplest = SIMPLEST_CLOSED if seen.closed else SIMPLEST_OPEN
+    return _simplest(best, suppositions(contour, seen), read, simplest)
+
+
+def _shortest(found: Iterable[Drawn | None], n: int) -> Drawn | None:
+    """Readings by errors that go on, the one first that tells n points for least.
+
+    Each error is told by what is new in it.
+    """
+
+    def cost(one: Drawn) -> float:
+        return n * float(np.log(max(one.new_each, TINY))) + PRICE * one.n_unknowns
+
+    return _in_turn(sorted((one for one in found if one is not None), key=cost))
+
+
+def _in_turn(found: Sequence[Drawn]) -> Drawn | None:
+    """The first reading, the others after it."""
+    return reduce(lambda after, one: one.or_else(after), reversed(found), None)
+
+
+def _by_size(best: Drawn | None, others: Iterable[Drawn | None]) -> Drawn | None:
+    """Readings of noisy points one after the other, the shortest first, free-form runs last.
+
+    By other errors a bend may be none: what tells of a drawing without gives way only to one that
+    is clearly shorter.
+    """
+
+    def order(one: Drawn) -> tuple[bool, int]:
+        return one.has_runs, one.size - (CLEARLY if one is best else 0)
+
+    found = sorted((one for one in (best, *others) if one is not None), key=order)
+    return _in_turn(found)
 
 
 def _simplest(
@@ -141,8 +180,11 @@ def _simplest(
 
 def _circle(seen: Observed, *, independent: bool = False) -> Drawn | None:
     """A closed outline as a whole circle, if it is one."""
-    arc = whole_circle(seen, independent=independent) if seen.closed else None
-    return None if arc is None else Drawn((arc,), (), is_told=True, n_unknowns=3)
+    found = whole_circle(seen, independent=independent) if seen.closed else None
+    if found is None:
+        return None
+    drawn = Drawn((found.arc,), (), is_told=True, n_unknowns=3)
+    return drawn if seen.pixel else drawn.with_distances([found.off])
 
 
 def _first_told(
@@ -172,7 +214,8 @@ def _supposed(
     one: Supposition, ends: FloatArray | None, regularities: Collection[str], tolerance: float
 ) -> Drawn | None:
     """What points tell that are supposed to have larger errors, if they tell enough."""
-    found = _circle(one.seen, independent=not one.by_rounding)
+    independent = not one.by_rounding and one.seen.apart == 1.0
+    found = _circle(one.seen, independent=independent)
     if found is None and one.n_each:
         row = segmented(one.seen)
         n_free = sum(segment.end - segment.begin for segment in row.found if segment.kind == FREE)
@@ -180,9 +223,17 @@ def _supposed(
             found = _first_told([(one.seen, row, False)], ends, regularities, tolerance)
     if found is None or not one.tells(found):
         return None
-    other, supposed = found.otherwise, one.seen.deviation
-    other = None if other is None else replace(other, supposed=supposed)
-    return replace(found, supposed=supposed, otherwise=other)
+    if one.seen.apart > 1.0 and not found.errors_go_on:
+        return None
+    return _supposing(found, one)
+
+
+def _supposing(found: Drawn, one: Supposition) -> Drawn:
+    """The same, told by points with such errors."""
+    other = None if found.otherwise is None else _supposing(found.otherwise, one)
+    if one.precisions is not None:
+        return replace(found, precisions=one.precisions, otherwise=other)
+    return replace(found, supposed=one.seen.deviation, otherwise=other)
 
 
 def drawn_between_corners(
@@ -259,7 +310,7 @@ def _of_row(
             as_it_is = other.model.row is filleted
             if estimating:
                 other = settled(other, tolerance)
-            best = other if best is None or (as_it_is and other.cost < best.cost) else best
+            best = other if best is None or (as_it_is and _is_cheaper(other, best)) else best
     if best is not None:
         best = settled(best, tolerance)
     as_read = best is not None and best.model.row is model.row
@@ -292,6 +343,12 @@ def _cheapest(best: Estimated, row: Segments) -> Estimated:
         other = _of_row(seen, finer, best.model.ends, np.inf, whole=False)
         best = best if other is None else min(best, other, key=lambda one: one.whole_cost)
     return descended(best)
+
+
+def _is_cheaper(other: Estimated, best: Estimated) -> bool:
+    """Whether it is told for less; what was left free costs nothing there."""
+    more = free_runs(other.model.row) - free_runs(best.model.row)
+    return more < 0 or (more == 0 and other.cost < best.cost)
 
 
 def _is_preferred(alike: Estimated, best: Estimated) -> bool:

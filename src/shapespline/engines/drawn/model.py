@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.engines.drawn.segments import ARC, FREE, LINE, PRICE, SHORTEST_STEPS
+from shapespline.engines.drawn.segments import ARC, FREE, LINE, PRICE, longest_gap
 
 if TYPE_CHECKING:
     from shapespline._kernels import Equation
@@ -38,16 +38,16 @@ Key: TypeAlias = tuple[int, int, int]
 
 
 class Misfit(NamedTuple):
-    """Of one element: chi squared, the sum of weights, the largest distance of a point."""
+    """Of one element: chi squared, what its points count, the largest distance of one of them."""
 
     chi_sq: float
-    weight: float
+    n_counted: float
     largest: float
 
     @property
     def mean(self) -> float:
         """Root mean square in deviations."""
-        return float(np.sqrt(self.chi_sq / max(self.weight, 1e-9)))
+        return float(np.sqrt(self.chi_sq / max(self.n_counted, 1e-9)))
 
 
 @dataclass(eq=False)
@@ -141,7 +141,7 @@ class Model:
         point is less by the square of its residual over one minus its leverage.
         """
         (i, j, kind), s = self.row.found[k], self.row.stations
-        if self.seen.skip or j <= i + 2 or s[i + 1] - s[i] >= SHORTEST_STEPS * self.seen.step:
+        if self.seen.skip or j <= i + 2 or s[i + 1] - s[i] >= longest_gap(self.seen):
             return False
         x, (px, py) = self.alone[self._key(k)], self.row.points[i]
         if kind == LINE:
@@ -175,13 +175,15 @@ class Model:
     def _elements(self) -> _kernels.Elements:
         """The points that count, of all elements."""
         data = [self.counted(k) for k in self.at]
-        counts = [len(weights) for _, weights in data]
+        numbers = [len(weights) for _, weights in data]
+        weights = np.concatenate([weights for _, weights in data])
         return _kernels.Elements(
             [self.kind(k) == LINE for k in self.at],
             list(self.at.values()),
-            np.cumsum([0, *counts])[:-1].tolist(),
+            np.cumsum([0, *numbers])[:-1].tolist(),
             np.concatenate([points for points, _ in data]),
-            np.concatenate([weights for _, weights in data]),
+            weights,
+            weights if self.seen.alike else np.full(len(weights), 1.0 / self.seen.apart),
             self.seen.deviation,
         )
 

@@ -39,6 +39,9 @@ LAST_DIGIT = 1e-5
 # Of points with so many decimals it is what rounding leaves, if as much of that shows between
 # neighbours (DRA-46).
 VISIBLE = 0.2
+# Noise is so many times as large as last digits: edges whose ends alone are given are gaps then
+# (DRA-57).
+NOISY = 2.0
 # Of more points than these every so many-th is looked at: of clean ones, of noisy ones, which are
 # averaged first (DRA-03), and those of a picture, which all count (DRA-09).
 MOST_POINTS, MOST_NOISY = 1000, 6000
@@ -61,13 +64,17 @@ class Observed:
     pixel : float
         0 for measured points.
     apart : float
-        Pixels from one independent sample to the next.
+        Pixels, or measured points, from one independent sample to the next.
     whole : ndarray, optional
         All points, of which so many are looked at.
     exact : bool
         Whether measured points have no noise but that of a table's last digits.
     rounding : float
         What their last digits leave, as far as they show it.
+    precisions : ndarray, optional
+        Of measured points, over that of most of them, where they are not alike.
+    noisy : bool
+        Whether measured points scatter by more than last digits: long steps are gaps then.
     """
 
     points: FloatArray
@@ -80,6 +87,8 @@ class Observed:
     whole: FloatArray | None = None
     exact: bool = False
     rounding: float = 0.0
+    precisions: FloatArray | None = None
+    noisy: bool = False
 
     @classmethod
     def of(cls, contour: Contour, accuracy: float | None) -> Observed:
@@ -100,6 +109,7 @@ class Observed:
         exact = 0.0 if contour.accuracy == 0 else None
         deviation = noise_level(Contour.trusted(points, closed, exact))
         rounding = rounded(points, closed, LAST_DIGIT * extent)
+        is_noisy = deviation > NOISY * max(rounding, LAST_DIGIT * extent)
         if deviation > VISIBLE * rounding:
             deviation = max(deviation, rounding)
         deviation = max(deviation, LAST_DIGIT * extent)
@@ -112,7 +122,7 @@ class Observed:
             points = means_of(points, k)
             deviation = max(deviation / k**0.5, LAST_DIGIT * extent)
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))
-        if k == 1 and whole is None:
+        if k == 1 and whole is None and not is_noisy:
             points = with_points_on_lines(points, closed)
         is_exact = k == 1 and deviation == LAST_DIGIT * extent
         return cls(
@@ -125,6 +135,7 @@ class Observed:
             whole=whole,
             exact=is_exact,
             rounding=rounding,
+            noisy=is_noisy,
         )
 
     def less_exact(self, deviation: float, *, exact: bool = False) -> Observed:
@@ -138,8 +149,12 @@ class Observed:
         return self._but(deviation=deviation, largest_deviation=deviation, floor=floor)
 
     def slow(self) -> Observed:
-        """The same with errors that go on for longer."""
+        """The same of a picture with errors that go on for longer."""
         return self._but(apart=APART)
+
+    def drifting(self, deviation: float, apart: float) -> Observed:
+        """Measured points the same, with such errors that go on over so many points."""
+        return replace(self.less_exact(deviation), apart=apart)
 
     def part(self, points: FloatArray) -> Observed:
         """An open stretch of it, in the same units."""
@@ -159,6 +174,11 @@ class Observed:
     def one_bit(self) -> bool:
         """Whether they are those of a picture without grey."""
         return self.largest_deviation > ONE_BIT * self.pixel > 0.0
+
+    @property
+    def alike(self) -> bool:
+        """Whether all points are as sure."""
+        return self.precisions is None
 
     @property
     def skip(self) -> float:

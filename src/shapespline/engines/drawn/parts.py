@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline.engines.drawn.sides import go_on, innovations
+
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.typing import FloatArray
     from shapespline.values import Arc, Regularity
 
@@ -47,8 +51,11 @@ class Drawn:
 
     ``is_told`` if these are enough to tell that it was drawn so; ``n_unknowns`` numbers of lines
     and arcs are what they leave free; ``supposed`` is the standard deviation that these tell of
-    points whose neighbours tell none, 0 of others. ``otherwise`` is what noisy points tell with
-    only those regularities that they nearly meet, where that is something else.
+    points whose neighbours tell none, 0 of others, ``precisions`` (n,) those over that of most
+    of the points where these are supposed not to be alike. ``errors_go_on`` from point to point if
+    neighbours tend to lie on the same side; ``new_each`` is what is new in the distance of each
+    beside the one before, root mean square; neither of a picture. ``otherwise`` is what noisy
+    points tell otherwise: with only those regularities that they nearly meet, or with other errors.
     """
 
     parts: tuple[Part, ...]
@@ -56,7 +63,19 @@ class Drawn:
     is_told: bool
     n_unknowns: int
     supposed: float = 0.0
+    precisions: FloatArray | None = None
+    errors_go_on: bool = False
+    new_each: float = 0.0
     otherwise: Drawn | None = None
+
+    def with_distances(self, off: Sequence[FloatArray]) -> Drawn:
+        """The same, told how far the points of each of its elements are off."""
+        return replace(self, errors_go_on=go_on(off), new_each=innovations(off))
+
+    def or_else(self, other: Drawn | None) -> Drawn:
+        """The same, another reading after all that it may be otherwise."""
+        last = other if self.otherwise is None else self.otherwise.or_else(other)
+        return replace(self, otherwise=last)
 
     @property
     def has_runs(self) -> bool:

@@ -183,7 +183,7 @@ def _between(seen: Observed, told: Sequence[tuple[int, int]], prices: Prices) ->
             row = _merged(_solved(part, 0, prices=prices)[0], part)
             found += [Segment(at + s.begin, at + s.end, s.kind) for s in row.found]
     stations = _along(np.hypot(*np.diff(points, axis=0).T))
-    return Segments(points, stations, _weights(seen, stations), start, tuple(found))
+    return Segments(points, stations, _weights(seen, stations, start), start, tuple(found))
 
 
 def _near(nodes: Sequence[int], n: int) -> IntArray:
@@ -215,6 +215,14 @@ def _along(steps: FloatArray) -> FloatArray:
     return stations
 
 
+def longest_gap(seen: Observed) -> float:
+    """The longest step beside which a corner may lie between two points.
+
+    A longer one is an edge whose ends alone are given, but a gap among noisy points.
+    """
+    return np.inf if seen.noisy else SHORTEST_STEPS * seen.step
+
+
 def _solved(
     seen: Observed,
     start: int,
@@ -226,9 +234,10 @@ def _solved(
     """Segments of the row that begins at a point, and what they cost."""
     points = np.concatenate([seen.points[start:], seen.points[: start + seen.closed]])
     stations = _along(np.concatenate([seen.steps[start:], seen.steps[:start]]))
-    weights = _weights(seen, stations)
+    weights = _weights(seen, stations, start)
     middle, size = seen.box
     shortest = SHORTEST_STAIRS if seen.one_bit else SHORTEST_BLUNTED
+    shortest = max(shortest * seen.skip, SHORTEST_STEPS * seen.step)
     parts, cost = _kernels.drawn_pieces(
         (points - middle) / size,
         stations / size,
@@ -238,8 +247,9 @@ def _solved(
         prices.directions,
         _kernels.SegmentationSettings(
             deviation=seen.deviation / size,
-            skip=seen.skip / size,
-            shortest=max(shortest * seen.skip, SHORTEST_STEPS * seen.step) / size,
+            lengths=_kernels.NodeLengths(
+                skip=seen.skip / size, shortest=shortest / size, gap=longest_gap(seen) / size
+            ),
             price=prices.parameter,
             free_parameters=FREE_PARAMETERS if seen.pixel else FREE_OF_POINTS,
             smooth_turn=float(np.tan(SMOOTH)),
@@ -251,14 +261,16 @@ def _solved(
     return Segments(points, stations, weights, start, found), cost
 
 
-def _weights(seen: Observed, stations: FloatArray) -> FloatArray:
+def _weights(seen: Observed, stations: FloatArray, start: int) -> FloatArray:
     """What points of a row count; those of a picture one for each pixel, or for more of them."""
     weights = np.ones(len(stations))
     if seen.pixel:
         weights[1:-1] = (stations[2:] - stations[:-2]) / 2.0
         weights[[0, -1]] = stations[1] - stations[0], stations[-1] - stations[-2]
-        weights = np.minimum(weights / seen.pixel, 1.0) / seen.apart
-    return weights
+        weights = np.minimum(weights / seen.pixel, 1.0)
+    elif seen.precisions is not None:
+        weights = np.take(seen.precisions, start + np.arange(len(stations)), mode="wrap")
+    return weights / seen.apart
 
 
 def _merged(row: Segments, seen: Observed) -> Segments:

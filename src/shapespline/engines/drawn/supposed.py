@@ -7,16 +7,26 @@ them.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
-from shapespline.analysis import are_drawn_vertices, left_of_cubics, tells_noise
+import numpy as np
+
+from shapespline.analysis import (
+    are_drawn_vertices,
+    left_of_cubics,
+    precisions,
+    slow_noise,
+    tells_noise,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from shapespline.engines.drawn.observed import Observed
     from shapespline.engines.drawn.parts import Drawn
+    from shapespline.typing import FloatArray
     from shapespline.values import Contour
 
 # Errors are no larger than so many times what neighbours leave of cubics, bends and all, or than
@@ -35,12 +45,14 @@ class Supposition(NamedTuple):
 
     ``by_rounding`` if the digits of the points make such errors, ``nearly_exact`` if they are as
     small as that; ``n_each`` are the unknowns that lines and arcs may leave for each of them.
+    ``precisions`` (n,) of noisy points are those over what their neighbours tell.
     """
 
     seen: Observed
-    by_rounding: bool
-    nearly_exact: bool
-    n_each: float
+    by_rounding: bool = False
+    nearly_exact: bool = False
+    n_each: float = inf
+    precisions: FloatArray | None = None
 
     def tells(self, drawn: Drawn) -> bool:
         """Whether few enough numbers tell the shape; of no file's digits lines and arcs alone."""
@@ -48,6 +60,27 @@ class Supposition(NamedTuple):
             return False
         n = len(drawn.parts)
         return n == 1 or drawn.n_unknowns <= self.n_each * n
+
+
+def unsure(contour: Contour, seen: Observed) -> Iterator[Supposition]:
+    """Noisy points some of which are less sure than others, as their neighbours tell."""
+    found = precisions(contour, seen.deviation) if _tells_all(contour, seen) else None
+    if found is not None:
+        yield Supposition(replace(seen, precisions=found), precisions=found)
+
+
+def drifting(contour: Contour, seen: Observed) -> Iterator[Supposition]:
+    """Noisy points whose errors go on from one to the next, the shortest way first."""
+    for deviation, apart in slow_noise(contour) if _tells_all(contour, seen) else ():
+        part = (seen.deviation / deviation) ** 2 / apart
+        yield Supposition(
+            seen.drifting(deviation, apart), precisions=np.full(len(seen.points), part)
+        )
+
+
+def _tells_all(contour: Contour, seen: Observed) -> bool:
+    """Whether all points are looked at one by one, and tell their noise."""
+    return tells_noise(contour) and not seen.exact and len(seen.points) == len(contour)
 
 
 def suppositions(contour: Contour, seen: Observed) -> Iterator[Supposition]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from shapespline.values import Arc
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn.observed import Observed
+    from shapespline.typing import FloatArray
 
 # A whole circle is within so many deviations in the mean (DRA-06), of measured points, whose errors
 # are independent, fewer (DRA-16).
@@ -23,11 +24,19 @@ ROUND, ROUND_OF_POINTS = 2.0, 1.3
 ALIKE = 3.0
 
 
-def whole_circle(seen: Observed, *, independent: bool = False) -> DrawnArc | None:
+class WholeCircle(NamedTuple):
+    """A circle, and how far points are off it, each for how sure it is."""
+
+    arc: DrawnArc
+    off: FloatArray
+
+
+def whole_circle(seen: Observed, *, independent: bool = False) -> WholeCircle | None:
     """All points as one circle; ``independent`` if errors may not go on from point to point."""
     points = seen.points
-    cx, cy, r = _kernels.circle_through(points, np.ones(len(points)))
-    off = np.hypot(points[:, 0] - cx, points[:, 1] - cy) - r
+    sure = np.ones(len(points)) if seen.precisions is None else seen.precisions
+    cx, cy, r = _kernels.circle_through(points, sure)
+    off = (np.hypot(points[:, 0] - cx, points[:, 1] - cy) - r) * np.sqrt(sure)
     most = ROUND if seen.pixel else ROUND_OF_POINTS
     mean, largest = float(np.sqrt((off**2).mean())), float(np.abs(off).max())
     if mean > most * seen.largest_deviation or largest > LARGEST * seen.largest_deviation:
@@ -36,4 +45,4 @@ def whole_circle(seen: Observed, *, independent: bool = False) -> DrawnArc | Non
         return None
     arc = Arc((cx, cy), r, 0.0, float(np.copysign(2 * np.pi, signed_area(points))))
     begin = np.array([cx + r, cy])
-    return DrawnArc(arc, begin, begin)
+    return WholeCircle(DrawnArc(arc, begin, begin), off)

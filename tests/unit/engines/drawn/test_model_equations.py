@@ -59,7 +59,8 @@ def elements(random):
     at = [*LINES, *CIRCLES]
     begins = list(range(0, len(points), 20))
     is_line = [k in LINES for k in at]
-    return _kernels.Elements(is_line, at, begins, points, np.ones(len(points)), 0.01)
+    alike = np.ones(len(points))
+    return _kernels.Elements(is_line, at, begins, points, alike, alike, 0.01)
 
 
 def slopes(function, x):

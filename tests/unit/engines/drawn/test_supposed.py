@@ -9,19 +9,26 @@ from benchmarks.drawn.few_points import (
     SHAPES,
     exported,
     fitted,
+    is_outline,
     is_right,
     measured,
     organic,
     shaken,
 )
+from benchmarks.drawn.measuring import WAYS
+from benchmarks.drawn.measuring import measured as measured_as
+from benchmarks.drawn.random_plates import STEP, plate, points_of
+from benchmarks.drawn.truth import sampled
 from benchmarks.quality import own_corpus
 
 import shapespline as ss
 from shapespline.engines.drawn.engine import as_drawn
 from shapespline.engines.drawn.observed import Observed
-from shapespline.engines.drawn.supposed import OF_STEP_ROUND, suppositions
+from shapespline.engines.drawn.supposed import OF_STEP_ROUND, drifting, suppositions, unsure
 
 CIRCLE = SHAPES["circle"]
+# Within a tolerance strays are followed, and corners in gaps are cut by a chord within it.
+BEYOND = ("1 % strays", "5 % missing", "uneven steps")
 
 
 def kinds(fit):
@@ -147,3 +154,76 @@ def test_what_lines_and_arcs_tell_of_errors_is_told():
     assert 0.35 * noise < found.supposed < 2.6 * noise
     clean = ss.Contour(measured(CIRCLE, 48, 0.0, np.random.default_rng(0)), closed=True)
     assert as_drawn(clean).supposed == 0.0
+
+
+def plate_measured(way, form, *, regular, noise=0.001):
+    """A plate and points of it, measured in some way."""
+    outline = plate(form, 0, regular=regular)
+    random = np.random.default_rng([0, *form.encode()])
+    return outline, measured_as(sampled(outline, STEP), way, noise, random)
+
+
+@pytest.mark.parametrize("regular", [True, False])
+@pytest.mark.parametrize("way", WAYS)
+def test_lines_and_arcs_come_back_however_they_were_measured(way, regular):
+    outline, points = plate_measured(way, "L", regular=regular)
+    fit = fitted(points, None)
+    assert is_outline(fit, outline)
+
+
+@pytest.mark.parametrize("way", [way for way in WAYS if way not in BEYOND])
+def test_and_within_a_tolerance_that_is_no_less_than_what_points_are_off_by(way):
+    outline, points = plate_measured(way, "L", regular=True, noise=0.0005)
+    fit = fitted(points, 0.005)
+    assert fit.kept
+    assert is_outline(fit, outline)
+
+
+def test_a_corner_in_a_gap_of_noisy_points_is_where_its_edges_meet():
+    outline, points = plate_measured("uneven steps", "T", regular=True)
+    assert is_outline(fitted(points, None), outline)
+
+
+@pytest.mark.parametrize(("form", "regular"), [("U", True), ("Z", False)])
+def test_what_tells_of_a_drawing_gives_way_only_to_what_is_clearly_shorter(form, regular):
+    # With strays that there are none an arc of few points less tells it, too.
+    outline = plate(form, 0, regular=regular)
+    random = np.random.default_rng([0, *form.encode()])
+    points = points_of(sampled(outline, STEP), 200, 0.0002, random)
+    assert is_outline(fitted(points, None), outline)
+
+
+def test_errors_that_go_on_may_be_larger_than_neighbours_tell_both_ways():
+    outline = plate("box", 1, regular=True)
+    random = np.random.default_rng([1, *b"box"])
+    points = measured_as(sampled(outline, STEP), "means of three", 0.003, random)
+    assert is_outline(fitted(points, None), outline)
+
+
+@pytest.mark.parametrize("way", ["1 % strays", "half three times as rough", "going on by 0.7"])
+def test_other_errors_make_no_arcs_of_what_is_none(way):
+    for outline in own_corpus():
+        if outline.name not in ("leaf840_closed", "hand620_closed"):
+            continue
+        dense = outline.contour.resampled(4000).points
+        points = measured_as(dense, way, 0.002, np.random.default_rng(1))
+        assert "arc" not in kinds(ss.fit_curve(points, closed=True))
+
+
+def test_noisy_points_that_are_alike_are_supposed_to_be_nothing_else():
+    _, points = plate_measured("even steps, alike", "L", regular=True)
+    contour = ss.Contour(points, closed=True)
+    assert not list(unsure(contour, Observed.of(contour, None)))
+    assert as_drawn(contour).precisions is None
+
+
+def test_errors_that_go_on_are_independent_only_so_many_points_apart():
+    _, points = plate_measured("means of three", "L", regular=True)
+    contour = ss.Contour(points, closed=True)
+    seen = Observed.of(contour, None)
+    found = list(drifting(contour, seen))
+    assert [one.seen.apart for one in found] == list(range(2, 2 + len(found)))
+    for one in found:
+        # n points of errors that go on tell as much as a part of them with larger ones.
+        part = (seen.deviation / one.seen.deviation) ** 2 / one.seen.apart
+        assert one.precisions == pytest.approx(part)

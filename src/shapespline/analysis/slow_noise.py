@@ -1,0 +1,62 @@
+"""Noise that goes on from point to point, as filters of a scanner leave it, or drifts of a hand.
+
+Neighbours are off by about as much as each other, so cubics through them leave less of it than
+those through every so many-th point (`noise`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.analysis.noise import FEWEST_POINTS, left_in_windows
+from shapespline.validation import smallest_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from shapespline.typing import FloatArray
+    from shapespline.values import Contour
+
+# The part of the windows that tells the noise, few enough for bends and corners, and a chi-squared
+# variable with 3 degrees of freedom is below that in so many cases (ANA-22).
+QUIET, CHI_SQUARED_QUIET = 0.3, 1.423652
+# Noise at twice the distance that is so many times as large is no chance, and from one distance to
+# the next one it still grows; over more steps, or more times what neighbours tell, bends do
+# (ANA-22).
+SLOW, STILL, MOST_APART, LARGEST = 1.15, 1.08, 5, 4.0
+
+
+def slow_noise(contour: Contour) -> Iterator[tuple[float, int]]:
+    """Standard deviations of noise that goes on over so many points; none where it does not.
+
+    Examples
+    --------
+    >>> from shapespline.values import Contour
+    >>> random = np.random.default_rng(1)
+    >>> noise = random.normal(0, 0.01, 400)
+    >>> x = np.linspace(0, 40, 400)
+    >>> list(slow_noise(Contour(np.column_stack([x, noise]), closed=False)))
+    []
+    >>> noise = np.convolve(noise, np.ones(3) / 3, mode="same")
+    >>> [apart for _, apart in slow_noise(Contour(np.column_stack([x, noise]), closed=False))]
+    [2, 3]
+    """
+    points, closed = contour.points, contour.closed
+    if len(points) < FEWEST_POINTS:
+        return
+    noise, grown = _noise_of(points, closed, 1), SLOW
+    most = LARGEST * noise
+    for apart in range(2, MOST_APART + 1):
+        wider = _noise_of(points, closed, apart)
+        if not grown * noise < wider <= most:
+            return
+        yield wider, apart
+        noise, grown = wider, STILL
+
+
+def _noise_of(points: FloatArray, closed: bool, apart: int) -> float:
+    """What cubics through every so many-th point leave."""
+    left = [left_in_windows(points[first::apart], closed) for first in range(apart)]
+    return float(np.sqrt(smallest_of(np.concatenate(left), QUIET) / CHI_SQUARED_QUIET))

@@ -1,0 +1,114 @@
+"""How sure each point is where noise is not the same everywhere: rough stretches, stray points.
+
+Local noise is what cubics through neighbours leave in windows about a point (`noise`). A stray
+point is one that neither the points before it, nor those behind it, nor both tell.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shapespline.analysis.noise import (
+    CHI_SQUARED_MEDIAN,
+    FEWEST_POINTS,
+    HALF_WINDOW,
+    left_in_windows,
+)
+
+if TYPE_CHECKING:
+    from shapespline.typing import FloatArray
+    from shapespline.values import Contour
+
+# Windows on either side of a point that tell its noise; logarithms of that which scatter by more
+# are no chance (ANA-22).
+BESIDE, UNEVEN = 24, 0.3
+# A line through so many points before a point, or behind it, or a parabola through so many on both
+# sides, tells where it is (ANA-22).
+LINE, PARABOLA = np.arange(1, 6), np.array([-3, -2, -1, 1, 2, 3])
+# A point that is off by so many deviations is less sure, by the fourth power of how many times
+# that; one that is off by more tells that there are such, and by still more nothing else
+# (ANA-22).
+SURE, STRAY, LOST = 2.5, 3.0, 4.0
+# Points are on a line if they leave so many deviations of one (ANA-22).
+FITS = 2.0
+# No point is surer than that, or less sure (ANA-22).
+SUREST, LEAST_SURE = 16.0, 1e-3
+
+
+def precisions(contour: Contour, noise: float) -> FloatArray | None:
+    """Precision of each point over that of most; None where noise is the same everywhere.
+
+    Parameters
+    ----------
+    contour : Contour
+    noise : float
+        Its noise level, data units.
+
+    Examples
+    --------
+    >>> from shapespline.values import Contour
+    >>> random = np.random.default_rng(1)
+    >>> points = np.column_stack([np.linspace(0, 10, 200), random.normal(0, 0.01, 200)])
+    >>> precisions(Contour(points, closed=False), 0.01) is None
+    True
+    >>> points[60, 1] += 0.1
+    >>> found = precisions(Contour(points, closed=False), 0.01)
+    >>> int(found.argmin()), bool(found[60] < 0.02), float(np.median(found))
+    (60, True, 1.0)
+    """
+    if len(contour) < FEWEST_POINTS or not noise > 0.0:
+        return None
+    points, closed = contour.points, contour.closed
+    local = _local_noise(points, closed) / noise
+    spread = np.log(np.clip(local, SUREST**-0.5, SUREST**0.5))
+    if float(spread.std()) < UNEVEN:
+        local = np.ones(len(points))
+    found = np.minimum(local**-2, SUREST)
+    off = _off(points, closed, noise * local)
+    strays = off > SURE
+    if float(off.max()) < STRAY and float(spread.std()) < UNEVEN:
+        return None
+    found[strays] *= (SURE / off[strays]) ** 4
+    found[off > LOST] = LEAST_SURE
+    return np.maximum(found, LEAST_SURE)
+
+
+def _local_noise(points: FloatArray, closed: bool) -> FloatArray:
+    """Noise about each point: by the median of the windows beside it."""
+    left = left_in_windows(points, closed)
+    if closed:
+        wide = np.pad(left, BESIDE, mode="wrap")
+    else:
+        wide = np.pad(left, BESIDE + HALF_WINDOW, mode="reflect")
+    about = np.lib.stride_tricks.sliding_window_view(wide, 2 * BESIDE + 1)
+    return np.asarray(np.sqrt(np.median(about, axis=1) / CHI_SQUARED_MEDIAN))
+
+
+def _off(points: FloatArray, closed: bool, noise: FloatArray) -> FloatArray:
+    """How far each point is from where its neighbours tell it, at least, over their own errors.
+
+    0 where the points before it or those behind it are on no line: bends leave as much.
+    """
+    n = len(points)
+    index, least = np.arange(n), np.full(n, np.inf)
+    for offsets, degree in ((-LINE, 1), (LINE, 1), (PARABOLA, 2)):
+        at = index[:, None] + offsets
+        told = index if closed else index[((at >= 0) & (at < n)).all(axis=1)]
+        vander = np.vander(offsets.astype(float), degree + 1)
+        powers = np.linalg.pinv(vander)
+        beside = points[at[told] % n]
+        found = np.einsum("ck,ikd->icd", powers, beside)
+        slope, place = found[:, -2], found[:, -1]
+        (x, y), (u, v) = (points[told] - place).T, slope.T
+        speed = np.maximum(np.hypot(u, v), np.finfo(float).tiny)
+        error = float(np.sqrt(1.0 + (powers[-1] ** 2).sum()))
+        off = np.abs(x * v - y * u) / (speed * error * noise[told])
+        if degree == 1:
+            left = beside - np.einsum("kc,icd->ikd", vander, found)
+            across = (left[..., 0] * v[:, None] - left[..., 1] * u[:, None]) / speed[:, None]
+            rest = np.sqrt((across**2).sum(axis=1) / (len(offsets) - 2))
+            off[rest > FITS * noise[told]] = 0.0
+        least[told] = np.minimum(least[told], off)
+    return least

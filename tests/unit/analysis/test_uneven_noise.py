@@ -1,0 +1,71 @@
+"""How sure points are whose noise is not the same everywhere."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from shapespline.analysis import precisions
+from shapespline.analysis.uneven_noise import LEAST_SURE, SUREST
+from shapespline.values import Contour
+
+NOISE = 0.05
+SQUARE = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]
+
+
+def square(n_each=60):
+    """Points along the sides of a square."""
+    t = np.arange(n_each)[:, None] / n_each
+    corners = np.array(SQUARE)
+    return np.concatenate([a + t * (b - a) for a, b in pairwise([*corners, corners[0]])])
+
+
+def shaken(points, seed, noise=NOISE):
+    return points + np.random.default_rng(seed).normal(0, 1, points.shape) * noise
+
+
+@pytest.mark.parametrize("closed", [True, False])
+@pytest.mark.parametrize("seed", range(10))
+def test_points_with_the_same_noise_are_alike_whatever_corners_they_have(seed, closed):
+    assert precisions(Contour(shaken(square(), seed), closed), NOISE) is None
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_strays_are_not_sure_and_their_neighbours_are(closed):
+    points = shaken(square(), 1)
+    strays = [17, 95, 200]  # in the middle of edges, across each of which they lie
+    points[strays] += [(0.0, 1.0), (1.0, 0.0), (-1.0, 0.0)]
+    found = precisions(Contour(points, closed), NOISE)
+    assert np.flatnonzero(found < 0.05).tolist() == strays
+    assert found[strays] == pytest.approx(LEAST_SURE)
+    assert np.median(found) == 1.0
+
+
+def test_bends_are_no_strays():
+    # A fillet of three points beside edges of many: each is far from what its neighbours tell.
+    t = np.linspace(0, 10, 100)
+    turn = np.array([(10.6, 0.2), (10.9, 0.6), (11.0, 1.1)])
+    points = np.concatenate(
+        [np.column_stack([t, 0 * t]), turn, np.column_stack([11 + 0 * t, 2 + t])]
+    )
+    found = precisions(Contour(shaken(points, 2, 0.002), closed=False), 0.002)
+    assert found is None or (found[100:103] == 1.0).all()
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_a_rough_half_is_less_sure_by_the_ratio_of_variances(closed):
+    points = square(100)
+    rough = np.where(np.arange(len(points)) < len(points) // 2, 4.0, 1.0)[:, None] * NOISE
+    found = precisions(Contour(shaken(points, 3, rough), closed), 2.0 * NOISE)
+    # Windows tell a deviation to about 0.2 of it (ANA-22), their median to a third of that.
+    ratio = np.median(found[:150]) / np.median(found[250:])
+    assert np.sqrt(1 / ratio) == pytest.approx(4.0, rel=0.2)
+    assert found.max() <= SUREST
+
+
+def test_few_points_and_exact_ones_tell_nothing():
+    points = shaken(square(10), 1)
+    assert precisions(Contour(points, closed=True), NOISE) is None
+    assert precisions(Contour(square(), closed=True), 0.0) is None
