@@ -20,6 +20,7 @@ from shapespline.engines.drawn.joints import direction_at
 from shapespline.engines.drawn.merging import merged
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.segments import LINE
+from shapespline.engines.drawn.sides import go_on
 from shapespline.values import Arc
 
 if TYPE_CHECKING:
@@ -69,10 +70,8 @@ def assembled(model: Model, found: list[Regularity], tolerance: float, told: boo
         if (one.name != "equal-length" or cut.isdisjoint(one.pieces))
         and (one.name in WHOLE or moved.isdisjoint(one.pieces))
     )
-    drawn = Drawn(tuple(parts), kept, told, model.n_free)
-    if not model.seen.pixel:
-        off = [off_by(model, k, model.counted(k)[0]) for k in model.at]
-        drawn = drawn.with_distances(off)
+    off = [] if model.seen.pixel else [off_by(model, k, model.counted(k)[0]) for k in model.at]
+    drawn = Drawn(tuple(parts), kept, told, model.n_free, errors_go_on=go_on(off))
     return merged(drawn, closed=model.seen.closed)
 
 

@@ -38,11 +38,12 @@ from shapespline.engines.drawn.segments import (
     supported,
 )
 from shapespline.engines.drawn.sharing import shared_anew
+from shapespline.engines.drawn.sides import go_on
 from shapespline.engines.drawn.supposed import drifting, suppositions, unsure
 from shapespline.engines.drawn.whole_circle import whole_circle
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Sequence
+    from collections.abc import Callable, Collection, Iterable
 
     from shapespline.engines.drawn.segments import Segment
     from shapespline.engines.drawn.supposed import Supposition
@@ -60,7 +61,6 @@ MOST_FREE = 0.35
 SIMPLEST_OPEN, SIMPLEST_CLOSED = 1, 2
 # Stored points that readings by other errors spare at least (DRA-57).
 CLEARLY = 2
-TINY = np.finfo(float).tiny
 # Rows with more segments are found at that part of their price (DRA-38).
 FINER = 0.5
 
@@ -111,27 +111,16 @@ def as_drawn(
 
     others = [read(one) for one in unsure(contour, seen)]
     if best is None or best.has_runs or best.errors_go_on:
-        others.append(_shortest(map(read, drifting(contour, seen)), len(seen.points)))
+        others.append(_in_turn([read(one) for one in drifting(contour, seen)]))
     best = _by_size(best, others)
     simplest = SIMPLEST_CLOSED if seen.closed else SIMPLEST_OPEN
     return _simplest(best, suppositions(contour, seen), read, simplest)
 
 
-def _shortest(found: Iterable[Drawn | None], n: int) -> Drawn | None:
-    """Readings by errors that go on, the one first that tells n points for least.
-
-    Each error is told by what is new in it.
-    """
-
-    def cost(one: Drawn) -> float:
-        return n * float(np.log(max(one.new_each, TINY))) + PRICE * one.n_unknowns
-
-    return _in_turn(sorted((one for one in found if one is not None), key=cost))
-
-
-def _in_turn(found: Sequence[Drawn]) -> Drawn | None:
+def _in_turn(found: Iterable[Drawn | None]) -> Drawn | None:
     """The first reading, the others after it."""
-    return reduce(lambda after, one: one.or_else(after), reversed(found), None)
+    known = [one for one in found if one is not None]
+    return reduce(lambda after, one: one.or_else(after), reversed(known), None)
 
 
 def _by_size(best: Drawn | None, others: Iterable[Drawn | None]) -> Drawn | None:
@@ -183,8 +172,8 @@ def _circle(seen: Observed, *, independent: bool = False) -> Drawn | None:
     found = whole_circle(seen, independent=independent) if seen.closed else None
     if found is None:
         return None
-    drawn = Drawn((found.arc,), (), is_told=True, n_unknowns=3)
-    return drawn if seen.pixel else drawn.with_distances([found.off])
+    off = [] if seen.pixel else [found.off]
+    return Drawn((found.arc,), (), is_told=True, n_unknowns=3, errors_go_on=go_on(off))
 
 
 def _first_told(

@@ -7,11 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn.sides import go_on, innovations
-
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from shapespline.typing import FloatArray
     from shapespline.values import Arc, Regularity
 
@@ -53,9 +49,8 @@ class Drawn:
     and arcs are what they leave free; ``supposed`` is the standard deviation that these tell of
     points whose neighbours tell none, 0 of others, ``precisions`` (n,) those over that of most
     of the points where these are supposed not to be alike. ``errors_go_on`` from point to point if
-    neighbours tend to lie on the same side; ``new_each`` is what is new in the distance of each
-    beside the one before, root mean square; neither of a picture. ``otherwise`` is what noisy
-    points tell otherwise: with only those regularities that they nearly meet, or with other errors.
+    neighbours tend to lie on the same side of their element. ``otherwise`` is what noisy points
+    tell otherwise: with only those regularities that they nearly meet, or with other errors.
     """
 
     parts: tuple[Part, ...]
@@ -65,12 +60,7 @@ class Drawn:
     supposed: float = 0.0
     precisions: FloatArray | None = None
     errors_go_on: bool = False
-    new_each: float = 0.0
     otherwise: Drawn | None = None
-
-    def with_distances(self, off: Sequence[FloatArray]) -> Drawn:
-        """The same, told how far the points of each of its elements are off."""
-        return replace(self, errors_go_on=go_on(off), new_each=innovations(off))
 
     def or_else(self, other: Drawn | None) -> Drawn:
         """The same, another reading after all that it may be otherwise."""

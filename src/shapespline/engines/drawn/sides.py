@@ -32,21 +32,3 @@ def go_on(distances: Sequence[FloatArray]) -> bool:
         return False
     calm = products[: int(np.searchsorted(counts, counts[-1] / 2)) + 1]
     return float(np.concatenate(calm).sum()) > 0.0
-
-
-def innovations(distances: Sequence[FloatArray]) -> float:
-    """Root mean square of what is new in each distance beside a part of the one before it.
-
-    The part is that of all which leaves least (autoregression of the first order).
-
-    Examples
-    --------
-    >>> round(innovations([np.array([1.0, 0.5, 0.25, 0.125])]), 3)
-    0.5
-    """
-    before = np.concatenate([own[:-1] for own in distances])
-    after = np.concatenate([own[1:] for own in distances])
-    first = np.array([own[0] for own in distances if len(own)])
-    part = float(before @ after) / max(float(before @ before), np.finfo(float).tiny)
-    left = np.concatenate([first, after - part * before])
-    return float(np.sqrt((left**2).mean()))

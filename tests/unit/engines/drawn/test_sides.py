@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shapespline.engines.drawn.sides import go_on, innovations
+from shapespline.engines.drawn.sides import go_on
 
 
 def going_on(part, n, seed):
@@ -39,16 +39,6 @@ def test_one_element_that_its_points_leave_is_no_error_that_goes_on():
     assert not go_on(distances)
 
 
-@pytest.mark.parametrize("part", [0.0, 0.4, 0.7])
-def test_what_is_new_in_each_is_told_whatever_goes_on(part):
-    found = innovations(elements(going_on(part, 4000, 1)))
-    # The first of each element has none before it.
-    firsts = 4000 / 50
-    told = np.sqrt(((4000 - firsts) * (1 - part**2) + firsts) / 4000)
-    assert found == pytest.approx(told, rel=3 / (2 * 4000) ** 0.5)
-
-
 def test_no_points_and_single_ones_are_on_no_side():
     assert not go_on([])
     assert not go_on([np.array([1.0])])
-    assert innovations([np.array([3.0]), np.array([4.0])]) == pytest.approx(12.5**0.5)

@@ -17,6 +17,7 @@ from benchmarks.drawn.few_points import (
 )
 from benchmarks.drawn.measuring import WAYS
 from benchmarks.drawn.measuring import measured as measured_as
+from benchmarks.drawn.profiles import noisy_profile
 from benchmarks.drawn.random_plates import STEP, plate, points_of
 from benchmarks.drawn.truth import sampled
 from benchmarks.quality import own_corpus
@@ -184,12 +185,23 @@ def test_a_corner_in_a_gap_of_noisy_points_is_where_its_edges_meet():
     assert is_outline(fitted(points, None), outline)
 
 
-@pytest.mark.parametrize(("form", "regular"), [("U", True), ("Z", False)])
-def test_what_tells_of_a_drawing_gives_way_only_to_what_is_clearly_shorter(form, regular):
-    # With strays that there are none an arc of few points less tells it, too.
-    outline = plate(form, 0, regular=regular)
-    random = np.random.default_rng([0, *form.encode()])
+@pytest.mark.parametrize(
+    ("form", "draw", "regular"),
+    [("U", 0, True), ("Z", 0, False), ("L", 3, True), ("U", 2, True), ("L", 2, False)],
+)
+def test_points_of_small_fillets_are_no_strays(form, draw, regular):
+    # Without them an arc of few points less would tell the plate.
+    outline = plate(form, draw, regular=regular)
+    random = np.random.default_rng([draw, *form.encode()])
     points = points_of(sampled(outline, STEP), 200, 0.0002, random)
+    assert is_outline(fitted(points, None), outline)
+
+
+@pytest.mark.parametrize(("form", "draw"), [("U", 0), ("box", 2)])
+def test_a_reading_that_leaves_elements_out_is_not_cheaper(form, draw):
+    outline = plate(form, draw, regular=False)
+    random = np.random.default_rng([draw, *form.encode()])
+    points = measured_as(sampled(outline, STEP), "3 % measured twice", 0.001, random)
     assert is_outline(fitted(points, None), outline)
 
 
@@ -227,3 +239,15 @@ def test_errors_that_go_on_are_independent_only_so_many_points_apart():
         # n points of errors that go on tell as much as a part of them with larger ones.
         part = (seen.deviation / one.seen.deviation) ** 2 / one.seen.apart
         assert one.precisions == pytest.approx(part)
+
+
+@pytest.mark.parametrize("draw", [3, 7])
+def test_a_curve_that_is_off_its_arcs_is_no_error_that_goes_on(draw):
+    (points,) = [
+        points
+        for sampling, points, _ in noisy_profile("spade (aside)", draw, 10)
+        if sampling == (0.02, 200)
+    ]
+    found = kinds(ss.fit_curve(points, closed=True))
+    assert found.count("line") == 5
+    assert "arc" not in found
