@@ -19,6 +19,9 @@ from PIL import Image
 
 import shapespline as ss
 from benchmarks import center_lines
+from benchmarks.drawn.measuring import measured
+from benchmarks.drawn.shapes import rounded
+from benchmarks.drawn.truth import sampled
 from benchmarks.figure_style import save
 
 if TYPE_CHECKING:
@@ -31,6 +34,16 @@ DATA = ROOT / "examples" / "data"
 TARGET = ROOT / "docs" / "figures" / "howto"
 # Pixels wide.
 SHOWN_PEN = 12.0
+# Corners and radii of a bracket, and how it was measured.
+BRACKET = (
+    [(0, 0), (100, 0), (100, 35), (40, 35), (40, 90), (0, 90)],
+    [8.0, 8.0, 8.0, 12.0, 8.0, 0.0],
+)
+MEASURED = {
+    "1 % strays": "one point of a hundred is a stray",
+    "half three times as rough": "one half is rougher",
+    "going on by 0.7": "errors go on",
+}
 BLUE, ORANGE, GREY = "#0072B2", "#D55E00", "#8A8A8A"
 
 
@@ -256,10 +269,33 @@ def chords(folder: Path) -> None:
     save(figure, TARGET / "chords.png", dpi=80)
 
 
+def bracket(way: str) -> FloatArray:
+    """Points of a bracket, measured in some way."""
+    return measured(sampled(rounded(*BRACKET), 0.02), way, 0.0025, np.random.default_rng(1))
+
+
+def measured_parts(_: Path) -> None:
+    """A bracket measured in three ways, and the lines and arcs that come back."""
+    figure, axes = canvas(len(MEASURED))
+    for one, (way, said) in zip(axes, MEASURED.items(), strict=True):
+        points = bracket(way)
+        fit = ss.fit_curve(points, closed=True)
+        one.plot(*points.T, ".", color=GREY, ms=4)
+        for piece in fit.pieces:
+            curve = ss.BSplineCurve(piece.knots, piece.control_points, piece.degree)
+            ends = piece.control_points[[0, -1]]
+            along = curve(np.linspace(*piece.knots[[0, -1]], 200))
+            one.plot(*along.T, color=BLUE if piece.kind == "arc" else ORANGE, lw=2.0)
+            one.plot(*ends.T, "o", color="black", ms=3)
+        count = {kind: sum(p.kind == kind for p in fit.pieces) for kind in ("line", "arc")}
+        one.set_title(f"{said}: {count['line']} lines, {count['arc']} arcs")
+    save(figure, TARGET / "measured.png", dpi=80)
+
+
 def main() -> None:
     """All of them, in a temporary folder."""
     pages = (logo_to_dxf, machines, leaf_to_step, points_to_svg, folder_of_files, centerlines)
-    pages += (drawings, chords)
+    pages += (drawings, chords, measured_parts)
     for page in pages:
         with tempfile.TemporaryDirectory() as folder:
             page(Path(folder))

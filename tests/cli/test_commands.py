@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from benchmarks.howto_figures import bracket
 from PIL import Image
 from tests.support.command_line import one_line
 from tests.support.places import DATA
@@ -363,3 +364,16 @@ def test_a_folder_with_pictures_is_many_inputs_for_every_part(shapespline, tmp_p
     assert (code, err) == (0, "")
     assert sorted(path.name for path in results.iterdir()) == ["a.svg", "b.svg"]
     assert sorted(path.name for path in pictures.iterdir()) == ["a.csv.png", "b.csv.png"]
+
+
+def test_what_an_estimate_is_made_of_is_said_and_nothing_of_what_was_asked_for(
+    shapespline, tmp_path
+):
+    part, output = tmp_path / "part.csv", tmp_path / "part.json"
+    np.savetxt(part, bracket("1 % strays"), delimiter=",")
+    _, out, _ = shapespline("fit", part, "--closed", "-o", output)
+    assert "16 points, estimated: 6 lines, 5 arcs, data and curve within" in out
+    _, out, _ = shapespline("fit", HAND, "-n", "24", "-o", output)
+    assert "estimated" not in out
+    _, out, _ = shapespline("fit", HAND, "-t", "0.5", "-o", output)
+    assert "estimated" not in out

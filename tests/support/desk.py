@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.howto_figures import boat, plate
+from benchmarks.howto_figures import boat, bracket, plate
 from PIL import Image, ImageDraw, ImageFilter
 from tests.support.places import DATA, ROOT
 
@@ -48,6 +48,7 @@ def laid_out(folder: Path) -> Path:
     circuit.save(folder / "circuit.png")
     (folder / "boat.svg").write_text(boat(), "utf-8")
     plate(folder / "plate.dxf")
+    np.savetxt(folder / "part.csv", bracket("1 % strays"), delimiter=",")
     (folder / "scans").mkdir()
     (folder / "scans" / "a.csv").write_bytes((folder / "scan.csv").read_bytes())
     with Image.open(folder / "leaf.png") as leaf:

@@ -76,7 +76,7 @@ class FitFile:
                 plot_fit(drawing, picture)
         return Report(
             str(source),
-            text=drawing_text(str(target), drawing, seconds),
+            text=drawing_text(str(target), drawing, seconds, self.settings),
             record={"output": str(target), "seconds": seconds, **drawing_record(drawing)},
             remarks=drawing_remarks(drawing),
             exceeded=any(not fit.kept for fit in drawing),

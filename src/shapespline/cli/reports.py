@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from shapespline import Drawing, Fit
+    from shapespline.fitting import Settings
+
+# How the status of a fit begins for which no tolerance was asked.
+UNASKED = "no tolerance asked for"
 
 
 def say(message: object) -> None:
@@ -81,16 +85,28 @@ def _fit_record(fit: Fit) -> dict[str, Any]:
     }
 
 
-def drawing_text(output: str, drawing: Drawing, seconds: float) -> str:
-    """One line on what was written."""
+def drawing_text(output: str, drawing: Drawing, seconds: float, settings: Settings) -> str:
+    """One line on what was written, and what was chosen where nothing else was asked for."""
     fits = drawing.fits
     points = sum(fit.n_stored_points for fit in fits)
     farthest = max(fit.hausdorff_distance for fit in fits)
     curves = "1 curve" if len(fits) == 1 else f"{len(fits)} curves"
     return (
-        f"{output}: {curves}, {points} points, data and curve within {farthest:.4g}"
-        f" of each other{_level_text(fits)}, {seconds:.2f} s"
+        f"{output}: {curves}, {points} points{_chosen_text(fits, settings)}, data and curve within"
+        f" {farthest:.4g} of each other{_level_text(fits)}, {seconds:.2f} s"
     )
+
+
+def _chosen_text(fits: Sequence[Fit], settings: Settings) -> str:
+    """Kinds of pieces of curves that were estimated, without a tolerance or a size."""
+    estimated = all(fit.status.value.startswith(UNASKED) for fit in fits)
+    if settings.n_control_points is not None or not estimated:
+        return ""
+    kinds = [piece.kind for fit in fits for piece in fit.pieces]
+    counts = {kind: kinds.count(kind) for kind in ("line", "arc")}
+    counts["spline"] = len(kinds) - sum(counts.values())
+    said = [f"{n} {kind}{'s' if n > 1 else ''}" for kind, n in counts.items() if n]
+    return f", estimated: {', '.join(said)}"
 
 
 def _level_text(fits: Sequence[Fit]) -> str:
