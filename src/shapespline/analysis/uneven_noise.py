@@ -61,14 +61,15 @@ def precisions(contour: Contour, noise: float) -> FloatArray | None:
     if len(contour) < FEWEST_POINTS or not noise > 0.0:
         return None
     points, closed = contour.points, contour.closed
-    local = _local_noise(points, closed) / noise
-    spread = np.log(np.clip(local, SUREST**-0.5, SUREST**0.5))
-    if float(spread.std()) < UNEVEN:
+    # A stretch may be exact.
+    local = np.maximum(_local_noise(points, closed) / noise, SUREST**-0.5)
+    uneven = float(np.log(np.minimum(local, SUREST**0.5)).std()) >= UNEVEN
+    if not uneven:
         local = np.ones(len(points))
-    found = np.minimum(local**-2, SUREST)
+    found = local**-2
     off = _off(points, closed, noise * local)
     strays = off > SURE
-    if float(off.max()) < STRAY and float(spread.std()) < UNEVEN:
+    if not uneven and float(off.max()) < STRAY:
         return None
     found[strays] *= (SURE / off[strays]) ** 4
     found[off > LOST] = LEAST_SURE

@@ -65,6 +65,15 @@ def test_a_rough_half_is_less_sure_by_the_ratio_of_variances(closed):
     assert found.max() <= SUREST
 
 
+@pytest.mark.parametrize("closed", [True, False])
+def test_an_exact_half_is_as_sure_as_any(closed):
+    points = square(100)
+    exact = np.where(np.arange(len(points)) < len(points) // 2, 0.0, 1.0)[:, None] * NOISE
+    found = precisions(Contour(shaken(points, 3, exact), closed), NOISE)
+    assert found[100] == found.max() == SUREST
+    assert np.isfinite(found).all()
+
+
 def test_few_points_and_exact_ones_tell_nothing():
     points = shaken(square(10), 1)
     assert precisions(Contour(points, closed=True), NOISE) is None
