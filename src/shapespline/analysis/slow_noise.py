@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.analysis.noise import FEWEST_POINTS, left_in_windows
+from shapespline.analysis.noise import left_in_windows
 from shapespline.validation import smallest_of
 
 if TYPE_CHECKING:
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 # The part of the windows that tells the noise, few enough for bends and corners, and a chi-squared
 # variable with 3 degrees of freedom is below that in so many cases (ANA-22).
 QUIET, CHI_SQUARED_QUIET = 0.3, 1.423652
+# Of fewer points windows of every second one are as long as what bends; of more, what bends leave
+# grows by so much faster, and faster, with the distance (ANA-22).
+FEWEST, STEADY = 200, 1.05
 # Noise at twice the distance that is so many times as large is no chance, and from one distance to
 # the next one it still grows; over more steps, or more times what neighbours tell, bends do
 # (ANA-22).
@@ -44,10 +47,12 @@ def slow_noise(contour: Contour) -> Iterator[tuple[float, int]]:
     [2, 3]
     """
     points, closed = contour.points, contour.closed
-    if len(points) < FEWEST_POINTS:
+    if len(points) < FEWEST:
         return
-    noise, grown = _noise_of(points, closed, 1), SLOW
-    most = LARGEST * noise
+    noise, wider, widest = (_noise_of(points, closed, apart) for apart in (1, 2, 3))
+    if widest * noise > STEADY * wider**2:
+        return
+    most, grown = LARGEST * noise, SLOW
     for apart in range(2, MOST_APART + 1):
         wider = _noise_of(points, closed, apart)
         if not grown * noise < wider <= most:

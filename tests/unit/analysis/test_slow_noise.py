@@ -39,6 +39,16 @@ def test_bends_that_grow_with_the_distance_are_no_noise():
     assert not list(slow_noise(Contour(points, closed=True)))
 
 
+@pytest.mark.parametrize("n", [100, 200])
+@pytest.mark.parametrize("seed", range(10))
+def test_waves_of_few_noisy_points_are_none(n, seed):
+    t = 2 * np.pi * np.arange(n) / n
+    radius = 40 * (1 + 0.15 * np.sin(5 * t) + 0.08 * np.cos(11 * t))
+    points = np.column_stack([radius * np.cos(t), radius * np.sin(t)])
+    points += np.random.default_rng(seed).normal(0, 0.5, points.shape)
+    assert not list(slow_noise(Contour(points, closed=True)))
+
+
 def test_deviations_grow_and_end_where_bends_begin():
     noise = np.random.default_rng(1).normal(0, 0.01, N)
     for before, after in zip(range(N - 1), range(1, N), strict=True):
