@@ -49,16 +49,18 @@ def slow_noise(contour: Contour) -> Iterator[tuple[float, int]]:
     points, closed = contour.points, contour.closed
     if len(points) < FEWEST:
         return
-    noise, wider, widest = (_noise_of(points, closed, apart) for apart in (1, 2, 3))
-    if widest * noise > STEADY * wider**2:
+    noise = [_noise_of(points, closed, apart) for apart in (1, 2, 3)]
+    if noise[2] * noise[0] > STEADY * noise[1] ** 2:
         return
-    most, grown = LARGEST * noise, SLOW
+    grown = SLOW
     for apart in range(2, MOST_APART + 1):
-        wider = _noise_of(points, closed, apart)
-        if not grown * noise < wider <= most:
+        if apart > len(noise):
+            noise.append(_noise_of(points, closed, apart))
+        before, wider = noise[apart - 2 : apart]
+        if not grown * before < wider <= LARGEST * noise[0]:
             return
         yield wider, apart
-        noise, grown = wider, STILL
+        grown = STILL
 
 
 def _noise_of(points: FloatArray, closed: bool, apart: int) -> float:

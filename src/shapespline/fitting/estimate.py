@@ -130,6 +130,7 @@ class Estimation:
     """
 
     precisions: FloatArray | None
+    _supposed: Estimation | None
 
     def __init__(self, problem: Problem, monitor: Monitor) -> None:
         contour = problem.contour
@@ -140,7 +141,7 @@ class Estimation:
         self.shown: Resolution = resolution(self.ordered, of_picture=contour.level_line is not None)
         self._degree, self._monitor = problem.request.style.degree, monitor
         self._ends = problem.request.constraints.ends
-        self.width, self.precisions = 1, None
+        self.width, self.precisions, self._supposed = 1, None, None
         if not (self.shown.clean or problem.request.style.names_corners):
             points, closed = self.ordered.points, contour.closed
             self.width = neighbours_to_average(points, closed, self.shown.noise)
@@ -149,11 +150,13 @@ class Estimation:
         """The same of points, in canonical order, with such precisions over that of most."""
         if precisions is None or self.width > 1:
             return self
-        other = copy(self)
-        for known in ("means", "_noise", "_tried", "start", "smooth"):
-            other.__dict__.pop(known, None)
-        other.precisions = precisions
-        return other
+        if self._supposed is None or self._supposed.precisions is not precisions:
+            other = copy(self)
+            for known in ("means", "_noise", "_tried", "start", "smooth"):
+                other.__dict__.pop(known, None)
+            other.precisions = precisions
+            self._supposed = other
+        return self._supposed
 
     @cached_property
     def means(self) -> Means:

@@ -43,15 +43,15 @@ def test_strays_are_not_sure_and_their_neighbours_are(closed):
     assert np.median(found) == 1.0
 
 
-def test_bends_are_no_strays():
+@pytest.mark.parametrize("seed", range(8))
+def test_bends_are_no_strays(seed):
     # A fillet of three points beside edges of many: each is far from what its neighbours tell.
     t = np.linspace(0, 10, 100)
     turn = np.array([(10.6, 0.2), (10.9, 0.6), (11.0, 1.1)])
     points = np.concatenate(
         [np.column_stack([t, 0 * t]), turn, np.column_stack([11 + 0 * t, 2 + t])]
     )
-    found = precisions(Contour(shaken(points, 2, 0.002), closed=False), 0.002)
-    assert found is None or (found[100:103] == 1.0).all()
+    assert precisions(Contour(shaken(points, seed, 0.002), closed=False), 0.002) is None
 
 
 @pytest.mark.parametrize("closed", [True, False])

@@ -176,14 +176,16 @@ class Model:
         """The points that count, of all elements."""
         data = [self.counted(k) for k in self.at]
         numbers = [len(weights) for _, weights in data]
-        weights = np.concatenate([weights for _, weights in data])
+        weights = counts = np.concatenate([weights for _, weights in data])
+        if self.seen.precisions is not None:
+            counts = np.full(len(weights), 1.0 / self.seen.apart)
         return _kernels.Elements(
             [self.kind(k) == LINE for k in self.at],
             list(self.at.values()),
             np.cumsum([0, *numbers])[:-1].tolist(),
             np.concatenate([points for points, _ in data]),
             weights,
-            weights if self.seen.alike else np.full(len(weights), 1.0 / self.seen.apart),
+            counts,
             self.seen.deviation,
         )
 

@@ -176,11 +176,6 @@ class Observed:
         return self.largest_deviation > ONE_BIT * self.pixel > 0.0
 
     @property
-    def alike(self) -> bool:
-        """Whether all points are as sure."""
-        return self.precisions is None
-
-    @property
     def skip(self) -> float:
         """How near to a node points do not count."""
         return BLUNTED * self.pixel
