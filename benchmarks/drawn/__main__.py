@@ -13,6 +13,7 @@ import argparse
 from benchmarks.drawn import random_plates
 from benchmarks.drawn.few_points import exported_table, measured_table, organic_table
 from benchmarks.drawn.limits import limits_table
+from benchmarks.drawn.measuring import measuring_table
 from benchmarks.drawn.page import write_page
 from benchmarks.drawn.profiles import clean_table, profiles_table
 from benchmarks.drawn.tables import pictures_tables, recovered_table, sampled_table
@@ -57,6 +58,18 @@ so many pixels.
 
 """
 
+MEASURING = """
+The same plates as instruments measure them (`python -m benchmarks.drawn.measuring`): 400 points,
+0.1 % noise without a tolerance, 0.05 % within 0.3 %; at uneven steps, with a stretch that is
+missing or was measured twice, one point of a hundred ten deviations off, errors with long tails
+(Student's t of 3), larger ones on half of the outline, along one axis alone, each 0.4 or 0.7 of
+the one before and what is new, or means of three. How many fits have the lines and arcs that were
+drawn and nothing else, and how far the plate is from them in deviations of a point, geometric
+mean. Within a tolerance the curve follows strays (`outliers=True` leaves out those that jump),
+and corners that no point lies in are cut where their chord is within it.
+
+"""
+
 FEW = """
 Few measured points, 24 to 60 of shapes 60 wide (`python -m benchmarks.drawn.few_points`): how many
 fits have the lines and arcs that were drawn and nothing else. Within a tolerance corners between
@@ -86,6 +99,7 @@ def main() -> None:
     points += f"{limits_table()}{PROFILES}{profiles_table()}{CLEAN}{clean_table()}"
     points += f"{RANDOM}{random_plates.clean_table()}\n{random_plates.noisy_table()}"
     points += f"{NOISY}{random_plates.within_table()}{TRACED}{random_plates.pictures_table()}"
+    points += f"{MEASURING}{measuring_table()}"
     points += f"{FEW}{measured_table()}{EXPORTED}{exported_table()}{ORGANIC}{organic_table()}"
     print("\n".join([*pictures.texts, points, *pictures.left_out]))
     if asked.page:
