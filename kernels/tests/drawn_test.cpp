@@ -202,7 +202,7 @@ TEST(normal_equations_are_the_derivatives_of_half_of_chi_squared) {
     for (int i = 0; i < 10; ++i) points.push_back({0.1 * i, 0.01 * i * i});
     std::vector<double> weights(40, 1.0);
     weights[35] = 0.25;
-    const Elements both({0, 1}, {0, 3}, {0, 30}, points, weights, 0.5);
+    const Elements both({0, 1}, {0, 3}, {0, 30}, points, weights, weights, 0.5);
     const std::vector<double> x{0.31, -0.18, 0.57, 0.3, -0.1};
     const auto half = [&](std::vector<double> at, std::size_t i, double step) {
         at[i] += step;
@@ -212,10 +212,43 @@ TEST(normal_equations_are_the_derivatives_of_half_of_chi_squared) {
     };
     std::vector<double> matrix(25), gradient(5);
     both.normal(x, matrix, gradient);
-    CHECK_NEAR(both.misfits(x)[1].weight, 9.25, 1e-15);
+    CHECK_NEAR(both.misfits(x)[1].count, 9.25, 1e-15);
     const double h = 1e-5;  // errors: h^2 times third derivatives of order 100, rounding over h
     for (std::size_t i = 0; i < 5; ++i)
         CHECK_NEAR(gradient[i], (half(x, i, h) - half(x, i, -h)) / (2 * h), 1e-7);
+}
+
+TEST(points_that_are_less_sure_count_but_miss_by_less) {
+    // Ten points on a level line; one lies three above it, and is sure to a ninth of the others.
+    std::vector<Vec2> points;
+    for (int i = 0; i < 10; ++i) points.push_back({1.0 * i, i == 4 ? 3.0 : 0.0});
+    std::vector<double> weights(10, 1.0);
+    const std::vector<double> counts = weights, x{0.0, 0.0};
+    const Misfit alike = Elements({1}, {0}, {0}, points, weights, counts, 0.5).misfits(x)[0];
+    CHECK_NEAR(alike.chi_sq, 36.0, 1e-13);
+    CHECK_NEAR(alike.largest, 3.0, 1e-15);
+    weights[4] = 1.0 / 9.0;
+    const Misfit less = Elements({1}, {0}, {0}, points, weights, counts, 0.5).misfits(x)[0];
+    CHECK_NEAR(less.chi_sq, 4.0, 1e-13);
+    CHECK_NEAR(less.count, 10.0, 1e-15);
+    CHECK_NEAR(less.largest, 1.0, 1e-15);
+}
+
+TEST(a_corner_lies_in_a_step_that_is_a_gap_and_in_no_longer_one) {
+    // Two edges at a right angle, the corner in the middle of a step of eight.
+    std::vector<Vec2> points;
+    for (int i = 0; i < 20; ++i) points.push_back({1.0 * i - 23.0, 0.0});
+    for (int i = 0; i < 20; ++i) points.push_back({0.0, 4.0 + i});
+    for (Vec2 &p : points) p = 0.02 * p;
+    std::vector<double> stations{0.0}, weights(points.size(), 1.0);
+    for (std::size_t i = 1; i < points.size(); ++i)
+        stations.push_back(stations.back() + norm(points[i] - points[i - 1]));
+    const auto lines = [&](double gap) {
+        const SegmentationSettings settings{1e-5, {0.0, 0.05, gap}, 4.0, 4.0, 0.14, 4, kJoints};
+        return Segmentation(points, stations, weights, {}, {}, {}, settings).run();
+    };
+    CHECK(lines(1.0).size() == 2);
+    CHECK(lines(0.05).size() > 2);
 }
 
 TEST(an_equation_that_holds_conditions_the_estimate) {
