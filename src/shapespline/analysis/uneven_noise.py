@@ -1,7 +1,8 @@
 """How sure each point is where noise is not the same everywhere: rough stretches, stray points.
 
 Local noise is what cubics through neighbours leave in windows about a point (`noise`). A stray
-point is one that neither the points before it, nor those behind it, nor both tell.
+point is one that neither the points before it, nor those behind it, nor both tell, or one that lies
+beside a line through points on both sides.
 """
 
 from __future__ import annotations
@@ -18,15 +19,17 @@ from shapespline.analysis.noise import (
 )
 
 if TYPE_CHECKING:
-    from shapespline.typing import FloatArray
+    from shapespline.typing import FloatArray, IntArray
     from shapespline.values import Contour
 
 # Windows on either side of a point that tell its noise; logarithms of that which scatter by more
 # are no chance (ANA-22).
 BESIDE, UNEVEN = 24, 0.3
 # A line through so many points before a point, or behind it, or a parabola through so many on both
-# sides, tells where it is (ANA-22).
+# sides, tells where it is; so does a line through those before it and the next one. Strays are
+# looked for one by one in so many points on either side (ANA-22).
 LINE, PARABOLA = np.arange(1, 6), np.array([-3, -2, -1, 1, 2, 3])
+ACROSS, REACH = np.array([-3, -2, -1, 1, 2]), 4
 # A point that is off by so many deviations is less sure, by the fourth power of how many times
 # that; one that is off by more tells that there are such, and by still more nothing else
 # (ANA-22).
@@ -88,28 +91,71 @@ def _local_noise(points: FloatArray, closed: bool) -> FloatArray:
 
 
 def _off(points: FloatArray, closed: bool, noise: FloatArray) -> FloatArray:
-    """How far each point is from where its neighbours tell it, at least, over their own errors.
+    """How far each point is from where its neighbours tell it, over their own errors.
+
+    Strays beside each other hide each other: the one that is off by most goes first.
+    """
+    off, kept = np.zeros(len(points)), np.arange(len(points))
+    while True:
+        off[kept] = _off_at_once(points[kept], closed, noise[kept])
+        wide = np.pad(off[kept], REACH, mode="wrap" if closed else "edge")
+        largest = np.lib.stride_tricks.sliding_window_view(wide, 2 * REACH + 1).max(axis=1)
+        left = kept[(off[kept] <= LOST) | (off[kept] < largest)]
+        if len(left) == len(kept) or len(left) < FEWEST_POINTS:
+            return off
+        kept = left
+
+
+def _off_at_once(points: FloatArray, closed: bool, noise: FloatArray) -> FloatArray:
+    """The same among these points: at least, but for what a line through both sides tells.
 
     0 where the points before it or those behind it are on no line: bends leave as much.
     """
-    n = len(points)
-    index, least = np.arange(n), np.full(n, np.inf)
+    least = np.full(len(points), np.inf)
     for offsets, degree in ((-LINE, 1), (LINE, 1), (PARABOLA, 2)):
-        at = index[:, None] + offsets
-        told = index if closed else index[((at >= 0) & (at < n)).all(axis=1)]
-        vander = np.vander(offsets.astype(float), degree + 1)
-        powers = np.linalg.pinv(vander)
-        beside = points[at[told] % n]
-        found = np.einsum("ck,ikd->icd", powers, beside)
-        slope, place = found[:, -2], found[:, -1]
-        (x, y), (u, v) = (points[told] - place).T, slope.T
-        speed = np.maximum(np.hypot(u, v), np.finfo(float).tiny)
-        error = float(np.sqrt(1.0 + (powers[-1] ** 2).sum()))
-        off = np.abs(x * v - y * u) / (speed * error * noise[told])
+        told = _with_all(offsets, len(points), closed)
+        off, rest = _told(points, told, offsets, degree, noise)
+        again = np.flatnonzero(rest > FITS)
         if degree == 1:
-            left = beside - np.einsum("kc,icd->ikd", vander, found)
-            across = (left[..., 0] * v[:, None] - left[..., 1] * u[:, None]) / speed[:, None]
-            rest = np.sqrt((across**2).sum(axis=1) / (len(offsets) - 2))
-            off[rest > FITS * noise[told]] = 0.0
+            off[again] = 0.0
+        # One of them may be a stray, but two side by side are what was drawn.
+        rest = np.full(len(again), FITS)
+        for k in np.flatnonzero(np.abs(offsets) > 1):
+            other, left = _told(points, told[again], np.delete(offsets, k), degree, noise)
+            fits = left < rest
+            rest[fits], off[again[fits]] = left[fits], other[fits]
         least[told] = np.minimum(least[told], off)
+    for offsets in (ACROSS, -ACROSS):
+        told = _with_all(offsets, len(points), closed)
+        off, rest = _told(points, told, offsets, 1, noise)
+        lost = (rest <= FITS) & (off > LOST)
+        least[told[lost]] = np.maximum(least[told[lost]], off[lost])
     return least
+
+
+def _with_all(offsets: IntArray, n: int, closed: bool) -> IntArray:
+    """Indices of the points that have neighbours at all offsets."""
+    index = np.arange(n)
+    return index if closed else index[-min(offsets.min(), 0) : n - max(offsets.max(), 0)]
+
+
+def _told(
+    points: FloatArray, told: IntArray, offsets: IntArray, degree: int, noise: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """How far points are off a line or parabola through others, and what these leave of it.
+
+    Both in deviations, the first one with the error of the curve.
+    """
+    vander = np.vander(offsets.astype(float), degree + 1)
+    powers = np.linalg.pinv(vander)
+    beside = points[(told[:, None] + offsets) % len(points)]
+    found = np.einsum("ck,ikd->icd", powers, beside)
+    slope, place = found[:, -2], found[:, -1]
+    (x, y), (u, v) = (points[told] - place).T, slope.T
+    speed = np.maximum(np.hypot(u, v), np.finfo(float).tiny)
+    error = float(np.sqrt(1.0 + (powers[-1] ** 2).sum()))
+    off = np.abs(x * v - y * u) / (speed * error * noise[told])
+    left = beside - np.einsum("kc,icd->ikd", vander, found)
+    across = (left[..., 0] * v[:, None] - left[..., 1] * u[:, None]) / speed[:, None]
+    rest = np.sqrt((across**2).sum(axis=1) / (len(offsets) - degree - 1))
+    return off, rest / noise[told]

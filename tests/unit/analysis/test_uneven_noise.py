@@ -43,6 +43,40 @@ def test_strays_are_not_sure_and_their_neighbours_are(closed):
     assert np.median(found) == 1.0
 
 
+@pytest.mark.parametrize("closed", [True, False])
+@pytest.mark.parametrize("apart", [2, 3, 4])
+def test_strays_near_each_other_do_not_hide_each_other(apart, closed):
+    points = shaken(square(), 2)
+    strays = [30, 30 + apart]
+    points[strays] += [(0.0, 1.0), (0.0, 0.8)]
+    found = precisions(Contour(points, closed), NOISE)
+    assert np.flatnonzero(found < 0.05).tolist() == strays
+
+
+@pytest.mark.parametrize("first", [0, 30, 31])
+def test_a_stray_goes_before_those_that_it_makes_look_like_some(first):
+    # Beside one that is off by far its neighbours are off what the others tell with it.
+    points = shaken(square(), 2)
+    points[30] += (0.0, 5.0)
+    found = precisions(Contour(np.roll(points, -first, axis=0), closed=True), NOISE)
+    assert np.flatnonzero(found < 1.0).tolist() == [(30 - first) % len(points)]
+
+
+@pytest.mark.parametrize("at", [58, 62])
+def test_a_stray_beside_a_corner_is_one(at):
+    # The points on its other side are on no line, but those next to it are on one across it.
+    points = shaken(square(), 2)
+    points[at] += (0.6, -0.6)
+    found = precisions(Contour(points, closed=True), NOISE)
+    assert np.flatnonzero(found < 0.05).tolist() == [at]
+
+
+def test_two_points_side_by_side_are_what_was_drawn():
+    points = shaken(square(), 2)
+    points[[30, 31]] += (0.0, 0.6)
+    assert precisions(Contour(points, closed=True), NOISE) is None
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_bends_are_no_strays(seed):
     # A fillet of three points beside edges of many: each is far from what its neighbours tell.
