@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 # are no chance (ANA-22).
 BESIDE, UNEVEN = 24, 0.3
 # A line through so many points before a point, or behind it, or a parabola through so many on both
-# sides, tells where it is; so does a line through those before it and the next one. Strays are
-# looked for one by one in so many points on either side (ANA-22).
+# sides, tells where it is; that it is lost a line through three before it and two behind it, or the
+# other way round, tells, too (ANA-22).
 LINE, PARABOLA = np.arange(1, 6), np.array([-3, -2, -1, 1, 2, 3])
-ACROSS, REACH = np.array([-3, -2, -1, 1, 2]), 4
+ACROSS = np.array([-3, -2, -1, 1, 2])
 # A point that is off by so many deviations is less sure, by the fourth power of how many times
 # that; one that is off by more tells that there are such, and by still more nothing else
 # (ANA-22).
@@ -93,44 +93,56 @@ def _local_noise(points: FloatArray, closed: bool) -> FloatArray:
 def _off(points: FloatArray, closed: bool, noise: FloatArray) -> FloatArray:
     """How far each point is from where its neighbours tell it, over their own errors.
 
-    Strays beside each other hide each other: the one that is off by most goes first.
+    Strays near each other hide each other, so what is told without those that were found counts.
+    But two side by side are what was drawn: not for the neighbours of a stray.
     """
-    off, kept = np.zeros(len(points)), np.arange(len(points))
+    n = len(points)
+    off, kept, beside = np.zeros(n), np.arange(n), np.zeros(n, dtype=bool)
     while True:
-        off[kept] = _off_at_once(points[kept], closed, noise[kept])
-        wide = np.pad(off[kept], REACH, mode="wrap" if closed else "edge")
-        largest = np.lib.stride_tricks.sliding_window_view(wide, 2 * REACH + 1).max(axis=1)
-        left = kept[(off[kept] <= LOST) | (off[kept] < largest)]
-        if len(left) == len(kept) or len(left) < FEWEST_POINTS:
+        told = ~beside[kept]
+        off[kept[told]] = _off_at_once(points[kept], closed, noise[kept])[told]
+        goes = off[kept] > LOST
+        if not goes.any() or len(kept) - goes.sum() < FEWEST_POINTS:
             return off
-        kept = left
+        next_to = kept[goes, None] + [-1, 1]
+        beside[next_to % n if closed else next_to.clip(0, n - 1)] = True
+        kept = kept[~goes]
 
 
 def _off_at_once(points: FloatArray, closed: bool, noise: FloatArray) -> FloatArray:
-    """The same among these points: at least, but for what a line through both sides tells.
-
-    0 where the points before it or those behind it are on no line: bends leave as much.
-    """
-    least = np.full(len(points), np.inf)
-    for offsets, degree in ((-LINE, 1), (LINE, 1), (PARABOLA, 2)):
-        told = _with_all(offsets, len(points), closed)
-        off, rest = _told(points, told, offsets, degree, noise)
-        again = np.flatnonzero(rest > FITS)
-        if degree == 1:
-            off[again] = 0.0
-        # One of them may be a stray, but two side by side are what was drawn.
-        rest = np.full(len(again), FITS)
-        for k in np.flatnonzero(np.abs(offsets) > 1):
-            other, left = _told(points, told[again], np.delete(offsets, k), degree, noise)
-            fits = left < rest
-            rest[fits], off[again[fits]] = left[fits], other[fits]
-        least[told] = np.minimum(least[told], off)
+    """The same among these points: at least, but for what a line through both sides tells."""
+    n, least = len(points), np.full(len(points), np.inf)
+    told = _with_all(PARABOLA, n, closed)
+    least[told], _ = _told(points, told, PARABOLA, 2, noise)
+    for offsets in (-LINE, LINE):
+        told = _with_all(offsets, n, closed)
+        least[told] = np.minimum(least[told], _off_line(points, told, offsets, noise))
     for offsets in (ACROSS, -ACROSS):
-        told = _with_all(offsets, len(points), closed)
+        told = _with_all(offsets, n, closed)
         off, rest = _told(points, told, offsets, 1, noise)
         lost = (rest <= FITS) & (off > LOST)
         least[told[lost]] = np.maximum(least[told[lost]], off[lost])
     return least
+
+
+def _off_line(
+    points: FloatArray, told: IntArray, offsets: IntArray, noise: FloatArray
+) -> FloatArray:
+    """How far points are off a line through those on one side.
+
+    One of these that is not next to it may be a stray. 0 where they are on no line: bends leave as
+    much.
+    """
+    off, rest = _told(points, told, offsets, 1, noise)
+    again = np.flatnonzero(rest > FITS)
+    off[again], rest = 0.0, np.full(len(again), FITS)
+    for k in range(1, len(offsets)):
+        others, one = np.delete(offsets, k), (told[again] + offsets[k]) % len(points)
+        other, left = _told(points, told[again], others, 1, noise)
+        away, _ = _told(points, one, others - offsets[k], 1, noise)
+        fits = (left < rest) & (away > LOST)
+        rest[fits], off[again[fits]] = left[fits], other[fits]
+    return off
 
 
 def _with_all(offsets: IntArray, n: int, closed: bool) -> IntArray:

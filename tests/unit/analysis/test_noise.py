@@ -9,6 +9,7 @@ from tests.support.shapes import flower, rectangle, wave
 from shapespline.analysis.noise import (
     FEWEST_POINTS,
     HALF_WINDOW,
+    along_one_direction,
     bends_evenly,
     left_of_cubics,
     noise_level,
@@ -38,6 +39,75 @@ def test_known_noise_is_found_however_dense_the_points(contour, sigma):
     found = noise_level(Contour(contour.points + noise, closed=True))
     # Windows overlap: every seventh is independent.
     assert abs(found / deviation - 1) <= 4 * spread(n / (2 * HALF_WINDOW + 1))
+
+
+def shaken_along(contour, angle, deviation, across=0.0):
+    """With noise along one direction, and that part of it across."""
+    noise = np.random.default_rng(2).normal(0, deviation, (len(contour), 2)) * (1.0, across)
+    turn = np.array([(np.cos(angle), np.sin(angle)), (-np.sin(angle), np.cos(angle))])
+    return Contour(contour.points + noise @ turn, contour.closed)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.5, 2.0])
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.7])
+def test_noise_along_one_direction_is_found_whatever_part_runs_that_way(angle, share):
+    # A box, turned with the noise: that share of its sides runs along it, and has none across.
+    box = rectangle(round(2000 * share), round(2000 * (1 - share)))
+    turn = np.array([(np.cos(angle), np.sin(angle)), (-np.sin(angle), np.cos(angle))])
+    turned = Contour(box.points @ turn, closed=True)
+    deviation = 0.3 * turned.length / len(turned)
+    contour = shaken_along(turned, angle, deviation)
+    found = along_one_direction(contour)
+    assert abs(found / deviation - 1) <= 4 * spread(len(turned) / (2 * HALF_WINDOW + 1))
+    assert noise_level(contour) >= found
+    assert left_of_cubics(contour) < 0.95 * deviation
+
+
+@pytest.mark.parametrize("across", [0.5, 1.0])
+def test_noise_in_both_directions_is_not_along_one(across):
+    contour = rectangle(600, 400)
+    assert along_one_direction(shaken_along(contour, 0.5, 0.5, across)) == 0.0
+
+
+def test_a_little_across_is_still_along_one_direction():
+    contour = rectangle(600, 400)
+    assert along_one_direction(shaken_along(contour, 0.0, 0.5, 0.15)) > 0.0
+
+
+@pytest.mark.parametrize("flat", [0.7, 0.95])
+def test_uneven_steps_where_an_outline_runs_one_way_are_no_noise(flat):
+    # Exact points, uneven along the upper and lower side: the other ones show that it is no noise.
+    random, steep = np.random.default_rng(3), 1.0 - flat
+    x = [np.sort(random.random(round(500 * flat))) * flat for _ in range(2)]
+    y = np.arange(round(500 * steep)) / 500
+    sides = [
+        np.column_stack([x[0], 0 * x[0]]),
+        np.column_stack([0 * y + flat, y]),
+        np.column_stack([x[1][::-1], 0 * x[1] + steep]),
+        np.column_stack([0 * y, steep - y]),
+    ]
+    assert along_one_direction(Contour(np.concatenate(sides), closed=True)) == 0.0
+
+
+@pytest.mark.parametrize(("steep", "tells"), [(0, False), (30, False), (100, True)])
+def test_few_windows_where_it_is_steep_tell_nothing(steep, tells):
+    points = [(k, 0.0) for k in range(500)] + [(500.0, k) for k in range(steep)]
+    shaken = shaken_along(Contour(points, closed=False), 0.0, 0.5)
+    assert (along_one_direction(shaken) > 0.0) == tells
+
+
+def test_pixels_are_off_along_either_axis_and_not_along_one():
+    # Most windows of a chain of pixels leave nothing along one axis, but not always the same one.
+    t = np.linspace(0, 2 * np.pi, 20_000, endpoint=False)
+    chain = np.rint(np.column_stack([60 * np.cos(t), 50 * np.sin(t)]))
+    chain = chain[(np.diff(chain, axis=0, prepend=chain[-1:]) != 0).any(axis=1)]
+    assert along_one_direction(Contour(chain, closed=True)) == 0.0
+
+
+def test_a_source_that_knows_its_accuracy_is_believed_about_the_direction():
+    contour = shaken_along(rectangle(700, 300), 0.0, 0.5)
+    known = Contour(contour.points, closed=True, accuracy=0.01)
+    assert noise_level(known) == max(0.01, left_of_cubics(known)) < along_one_direction(known)
 
 
 @pytest.mark.parametrize("percent", [0.2, 1.0])

@@ -54,8 +54,8 @@ def test_strays_near_each_other_do_not_hide_each_other(apart, closed):
 
 
 @pytest.mark.parametrize("first", [0, 30, 31])
-def test_a_stray_goes_before_those_that_it_makes_look_like_some(first):
-    # Beside one that is off by far its neighbours are off what the others tell with it.
+def test_the_neighbours_of_a_stray_are_none(first):
+    # They are off what the others tell with it.
     points = shaken(square(), 2)
     points[30] += (0.0, 5.0)
     found = precisions(Contour(np.roll(points, -first, axis=0), closed=True), NOISE)
