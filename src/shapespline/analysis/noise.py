@@ -136,7 +136,7 @@ def along_one_direction(contour: Contour) -> float:
 
     It shows in all windows, also where the outline runs that way and has none across, as half of
     it or more may do. Steps that are uneven on an outline that mostly runs one way show so, too,
-    but where it is steep nothing does. Heights over even steps never run that way.
+    but where it is steep nothing is across it. Heights over even steps never run that way.
 
     Examples
     --------
@@ -159,13 +159,17 @@ def along_one_direction(contour: Contour) -> float:
         return 0.0
     way = np.exp(-0.5j * np.angle(twice))
     rest, slope = rest * way, slope * way
-    sine = np.abs(slope.imag) / np.maximum(np.abs(slope), np.finfo(float).tiny)
-    steep = sine > STEEP
+    slope /= np.maximum(np.abs(slope), np.finfo(float).tiny)
+    sine = np.abs(slope.imag)
+    # All about it are steep: corners at the ends of a bar are no noise.
+    wide = np.pad(sine > STEEP, HALF_WINDOW, mode="wrap" if contour.closed else "edge")
+    steep = np.lib.stride_tricks.sliding_window_view(wide, 2 * HALF_WINDOW + 1).all(axis=1)
     if min(steep.mean(), (sine < LEVEL).mean()) < LEAST_SHARE:
         return 0.0
+    across = (rest * slope.conj()[:, None])[steep].imag / sine[steep, None]
     along, where_steep = (
         float(np.sqrt(median((part**2).sum(axis=1)) / CHI_SQUARED_MEDIAN))
-        for part in (rest.real, rest.real[steep])
+        for part in (rest.real, across)
     )
     return along if where_steep >= STEEP_PART * along else 0.0
 

@@ -89,6 +89,43 @@ def test_uneven_steps_where_an_outline_runs_one_way_are_no_noise(flat):
     assert along_one_direction(Contour(np.concatenate(sides), closed=True)) == 0.0
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_neither_are_those_of_a_bar_whose_ends_have_few_points(seed):
+    random = np.random.default_rng(seed)
+    corners = np.array([(0, 0), (100, 0), (100, 12), (0, 12), (0, 0)], dtype=float)
+    at = np.concatenate([[0.0], np.cumsum(random.exponential(1.0, 120))])
+    stations = np.array([0.0, 100.0, 112.0, 212.0, 224.0])
+    at *= 224.0 / at[-1]
+    bar = np.column_stack([np.interp(at[:-1], stations, axis) for axis in corners.T])
+    assert along_one_direction(Contour(bar, closed=True)) == 0.0
+
+
+def uneven_ellipse(n, height, seed):
+    """Points of an ellipse 100 wide at steps that are exponentially distributed."""
+    t = np.linspace(0, 2 * np.pi, 4000)
+    dense = np.column_stack([50 * np.cos(t), 0.5 * height * np.sin(t)])
+    stations = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(dense, axis=0).T))])
+    at = np.cumsum(np.random.default_rng(seed).exponential(1.0, n))
+    at *= stations[-1] / (at[-1] * 1.001)
+    points = np.column_stack([np.interp(at, stations, axis) for axis in dense.T])
+    return Contour(points, closed=True)
+
+
+def test_nor_where_it_is_round():
+    # Steps along it have a part in any direction, but none across the outline.
+    found = [along_one_direction(uneven_ellipse(380, 27, seed)) for seed in range(40)]
+    assert found == [0.0] * 40
+
+
+def test_heights_over_even_steps_are_noisy_by_as_much_as_is_across():
+    # All of it is in one direction, but no part of the profile runs that way.
+    x = np.arange(400.0)
+    heights = 40 * np.sin(x / 15) + np.random.default_rng(1).normal(0, 1, 400)
+    profile = Contour(np.column_stack([x, heights]), closed=False)
+    assert along_one_direction(profile) == 0.0
+    assert noise_level(profile) == left_of_cubics(profile) > 0.0
+
+
 @pytest.mark.parametrize(("steep", "tells"), [(0, False), (30, False), (100, True)])
 def test_few_windows_where_it_is_steep_tell_nothing(steep, tells):
     points = [(k, 0.0) for k in range(500)] + [(500.0, k) for k in range(steep)]
