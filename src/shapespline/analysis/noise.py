@@ -136,7 +136,8 @@ def along_one_direction(contour: Contour) -> float:
 
     It shows in all windows, also where the outline runs that way and has none across, as half of
     it or more may do. Steps that are uneven on an outline that mostly runs one way show so, too,
-    but where it is steep nothing is across it. Heights over even steps never run that way.
+    but where it is steep nothing is across it. Heights over even steps never run that way. The
+    contour has seven points or more.
 
     Examples
     --------

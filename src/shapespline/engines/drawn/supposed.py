@@ -71,9 +71,9 @@ def unsure(contour: Contour, seen: Observed) -> Iterator[Supposition]:
 
 def drifting(contour: Contour, seen: Observed) -> Iterator[Supposition]:
     """Noisy points whose errors go on from one to the next, the shortest way first."""
-    for deviation, apart in (
-        slow_noise(contour, seen.deviation) if _tells_all(contour, seen) else ()
-    ):
+    if not _tells_all(contour, seen):
+        return
+    for deviation, apart in slow_noise(contour, seen.deviation):
         part = (seen.deviation / deviation) ** 2 / apart
         yield Supposition(
             seen.drifting(deviation, apart), precisions=np.full(len(seen.points), part)
