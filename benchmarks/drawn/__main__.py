@@ -63,10 +63,11 @@ The same plates as instruments measure them (`python -m benchmarks.drawn.measuri
 0.1 % noise without a tolerance, 0.05 % within 0.3 %; at uneven steps, with a stretch that is
 missing or was measured twice, one point of a hundred ten deviations off, errors with long tails
 (Student's t of 3), larger ones on half of the outline, along one axis alone, each 0.4 or 0.7 of
-the one before and what is new, or means of three. How many fits have the lines and arcs that were
-drawn and nothing else, and how far the plate is from them in deviations of a point, geometric
-mean. Within a tolerance the curve follows strays (`outliers=True` leaves out those that jump),
-and corners that no point lies in are cut where their chord is within it.
+the one before and what is new, or means of three; at last coordinates of three digits without
+noise. How many fits have the lines and arcs that were drawn and nothing else, and how far the plate
+is from them in deviations of a point, geometric mean. Within a tolerance the curve follows strays
+(`outliers=True` leaves out those that jump), and corners that no point lies in are cut where their
+chord is within it.
 
 """
 

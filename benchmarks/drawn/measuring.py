@@ -5,7 +5,7 @@
 Points at even steps with errors that are normal, alike and independent come first; then uneven
 steps, a stretch that is missing or was measured twice, strays, errors with long tails, larger ones
 on half of the outline, in one direction alone, and such that go on from point to point. All errors
-have the same root mean square but for the strays.
+have the same root mean square but for the strays. Last come coordinates of three digits.
 """
 
 from __future__ import annotations
@@ -36,6 +36,8 @@ COUNT = 400
 # Strays: their part, and how many deviations they are off; what is missing, or measured twice.
 PART, FAR, MISSING, TWICE = 0.01, 10.0, 0.05, 0.03
 ROUGHER, FREEDOM = 3.0, 3.0
+# The last digit, over the longer side.
+DIGIT = 1e-3
 
 
 def _even(n: int, random: Random) -> tuple[Array, Array]:
@@ -108,16 +110,27 @@ WAYS: dict[str, Way] = {
     "going on by 0.7": _going_on(0.7),
     "means of three": _filtered,
 }
+FEW_DIGITS = "three digits, no noise"
 
 
 def measured(dense: Array, way: str, noise: float, random: Random) -> Array:
     """Points of a closed outline, given densely, with noise over its box diagonal."""
     around = np.concatenate([dense, dense[:1]])
     stations = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(around, axis=0).T))])
-    shares, errors = WAYS[way](COUNT, random)
+    shares, errors = WAYS.get(way, _even)(COUNT, random)
     at = shares % 1.0 * stations[-1]
     points = np.column_stack([np.interp(at, stations, axis) for axis in around.T])
-    return points + noise * float(np.hypot(*np.ptp(dense, axis=0))) * errors
+    if way == FEW_DIGITS:
+        step = DIGIT * np.ptp(dense, axis=0).max()
+        return step * np.round(points / step)
+    return points + deviation_of(dense, way, noise) * errors
+
+
+def deviation_of(dense: Array, way: str, noise: float) -> float:
+    """Root mean square of the errors of a coordinate."""
+    if way == FEW_DIGITS:
+        return float(DIGIT * np.ptp(dense, axis=0).max() / 12**0.5)
+    return noise * float(np.hypot(*np.ptp(dense, axis=0)))
 
 
 def measuring_table() -> str:
@@ -126,7 +139,7 @@ def measuring_table() -> str:
     heads = [f"{said(tolerance)}, {kind}" for _, tolerance in SAMPLINGS for kind in kinds]
     lines = [f"Right of {DRAWS * len(FORMS)}, distance | " + " | ".join(heads)]
     lines.append("|".join(["---"] * (1 + len(heads))))
-    for way in WAYS:
+    for way in (*WAYS, FEW_DIGITS):
         cells = [
             _cell(way, noise, tolerance, regular=kind == "regular")
             for noise, tolerance in SAMPLINGS
@@ -146,8 +159,7 @@ def _cell(way: str, noise: float, tolerance: float | None, *, regular: bool) -> 
             fit = fitted(measured(dense, way, noise, random), tolerance)
             right += is_outline(fit, outline)
             away = cKDTree(Found.of_fits([fit]).curve).query(dense[::EVERY])[0]
-            deviation = noise * float(np.hypot(*np.ptp(dense, axis=0)))
-            off.append(float(np.sqrt((away**2).mean())) / deviation)
+            off.append(float(np.sqrt((away**2).mean())) / deviation_of(dense, way, noise))
     return f"{right}, {np.exp(np.mean(np.log(off))):.2f}"
 
 

@@ -4,7 +4,7 @@ from shapespline.analysis.between_points import with_points_between
 from shapespline.analysis.corners import LEAST_TURN, LOW_TURN, find_corners
 from shapespline.analysis.cpda import Cpda, bending, check_window, chord_to_point, local_maxima
 from shapespline.analysis.drawn_vertices import are_drawn_vertices
-from shapespline.analysis.last_digit import rounded
+from shapespline.analysis.last_digit import left_by_rounding, rounded
 from shapespline.analysis.mirror import Mirror, find_mirror
 from shapespline.analysis.noise import (
     bends_evenly,
@@ -84,6 +84,7 @@ __all__ = [
     "has_straight_runs",
     "joint",
     "largest_bulge",
+    "left_by_rounding",
     "left_of_cubics",
     "local_maxima",
     "looks_shuffled",

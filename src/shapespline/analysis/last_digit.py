@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline.analysis.noise import CHI_SQUARED_MEDIAN, FEWEST_POINTS, left_in_windows
 from shapespline.validation import median
 
 if TYPE_CHECKING:
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
 # lies between neighbours, are no rounding (DRA-46, DRA-47). How near to whole numbers of steps
 # points lie; how many differences tell it.
 ROUNDED, COARSEST, COARSE, ON_GRID, MOST_DIFFERENCES = 12.0**0.5, 1e-3, 0.1, 1e-3, 256
+# Windows that leave less than that of what rounding does are exact, those that leave so many times
+# as much have corners; so many of the others tell how much it leaves (DRA-59).
+EXACT, CORNERS, FEWEST_BENT = 1e-6, 2.0, 24
 # Points on the straight way between their neighbours, but for a turn of so much, were put there.
 STRAIGHT = 1e-9
 
@@ -51,6 +55,29 @@ def rounded(points: FloatArray, closed: bool, finest: float) -> float:
         return 0.0
     counts = offsets / step
     return step / ROUNDED if (np.abs(counts - np.round(counts)) <= ON_GRID).all() else 0.0
+
+
+def left_by_rounding(points: FloatArray, closed: bool, rounding: float) -> float:
+    """What rounding leaves of local cubics where it leaves any: level edges are exact nevertheless.
+
+    `rounding` is what `rounded` tells. 0 of few points, or where few windows of them bend by no
+    more than it makes them.
+
+    Examples
+    --------
+    >>> angle = np.pi * np.arange(100) / 50
+    >>> circle = 5 * np.column_stack([np.cos(angle), np.sin(angle)])
+    >>> rounding = 0.01 / 12**0.5
+    >>> bool(0.8 < left_by_rounding(circle.round(2), True, rounding) / rounding < 1.2)
+    True
+    >>> left_by_rounding(np.column_stack([angle, 0 * angle]), False, rounding)
+    0.0
+    """
+    if not rounding or len(points) < FEWEST_POINTS:
+        return 0.0
+    left = np.sqrt(left_in_windows(points, closed) / CHI_SQUARED_MEDIAN) / rounding
+    bent = left[(left > EXACT) & (left < CORNERS)]
+    return rounding * median(bent) if len(bent) >= FEWEST_BENT else 0.0
 
 
 def _turning(points: FloatArray, closed: bool) -> BoolArray:

@@ -5,7 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shapespline.analysis.last_digit import ROUNDED, rounded
+from shapespline.analysis.last_digit import (
+    CORNERS,
+    FEWEST_BENT,
+    ROUNDED,
+    left_by_rounding,
+    rounded,
+)
 
 
 def ring(count, radius, decimals):
@@ -56,3 +62,34 @@ def test_a_straight_row_tells_none():
 
 def test_points_too_near_to_each_other_to_turn_tell_none():
     assert rounded(1e-200 * ring(24, 30.0, 2), True, 1e-205) == 0.0
+
+
+def slot(count, decimals):
+    """Two level edges and two half circles, whose places are no whole numbers of steps."""
+    side = np.linspace(0, 1, count, endpoint=False)
+    angle = np.pi * (side - 0.5)
+    parts = [
+        (40 * side, 0 * side - 10.03),
+        (40 + 10.03 * np.cos(angle), 10.03 * np.sin(angle)),
+        (40 - 40 * side, 0 * side + 10.03),
+        (-10.03 * np.cos(angle), -10.03 * np.sin(angle)),
+    ]
+    return np.concatenate([np.column_stack(part) for part in parts]).round(decimals)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_level_edges_do_not_hide_what_rounding_leaves_of_arcs(closed):
+    # More than half of the windows are exact; a median of uniform errors is near their deviation.
+    points = np.concatenate([slot(60, 1), [(60.0 + k, -10.0) for k in range(200)]])
+    rounding = 0.1 / ROUNDED
+    assert left_by_rounding(points, closed, rounding) == pytest.approx(rounding, rel=0.3)
+
+
+def test_few_windows_and_corners_tell_nothing_of_rounding():
+    few = slot(60, 1)[: 60 + FEWEST_BENT // 4]
+    assert left_by_rounding(np.concatenate([few, few[-1] + [[0.0, 1.0]]]), False, 0.1) == 0.0
+    x = np.arange(200.0)
+    saw = 10.0 * CORNERS * np.column_stack([x, np.abs(x % 4 - 2)])
+    assert left_by_rounding(saw, False, 1.0) == 0.0
+    assert left_by_rounding(slot(60, 1), True, 0.0) == 0.0
+    assert left_by_rounding(slot(12, 1), True, 0.1) == 0.0

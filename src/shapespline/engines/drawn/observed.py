@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.analysis import (
+    left_by_rounding,
     means_of,
     neighbours_to_average,
     noise_level,
@@ -37,7 +38,7 @@ ONE_BIT = 0.15
 # Points of a table are not known better than this part of the extent (DRA-02).
 LAST_DIGIT = 1e-5
 # Of points with so many decimals it is what rounding leaves, if as much of that shows between
-# neighbours (DRA-46).
+# neighbours (DRA-46), or where these are not on level edges (DRA-59).
 VISIBLE = 0.2
 # Noise is so many times as large as last digits: edges whose ends alone are given are gaps then
 # (DRA-57).
@@ -110,7 +111,7 @@ class Observed:
         deviation = noise_level(Contour.trusted(points, closed, exact))
         rounding = rounded(points, closed, LAST_DIGIT * extent)
         is_noisy = deviation > NOISY * max(rounding, LAST_DIGIT * extent)
-        if deviation > VISIBLE * rounding:
+        if max(deviation, left_by_rounding(points, closed, rounding)) > VISIBLE * rounding:
             deviation = max(deviation, rounding)
         deviation = max(deviation, LAST_DIGIT * extent)
         k = neighbours_to_average(points, closed, deviation)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from benchmarks.drawn.few_points import fitted, is_outline
+from benchmarks.drawn.random_plates import STEP, plate, points_of
+from benchmarks.drawn.truth import sampled
 
 import shapespline as ss
 from shapespline.engines.drawn.observed import LAST_DIGIT, Observed
@@ -51,6 +54,15 @@ def test_points_on_a_grid_that_are_exact_stay_so():
     seen = Observed.of(ss.Contour(square.round(2), closed=True), None)
     assert seen.exact
     assert seen.deviation == LAST_DIGIT * 50
+
+
+@pytest.mark.parametrize(("form", "draw"), [("L", 1), ("U", 3), ("box", 1), ("steps", 3)])
+def test_arcs_between_level_edges_are_rounded_as_well(form, draw):
+    # Level edges stay exact whatever they are rounded to: the plates were up to 87 pieces.
+    outline = plate(form, draw, regular=True)
+    dense = sampled(outline, STEP)
+    points = points_of(dense, 400, 0.0, np.random.default_rng(0))
+    assert is_outline(fitted(points.round(1), None), outline)
 
 
 def test_more_decimals_than_count_are_none():
