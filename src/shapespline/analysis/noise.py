@@ -79,9 +79,10 @@ def scatter(contour: Contour) -> Scatter:
     known = contour.accuracy or 0.0
     if not tells_noise(contour):
         return Scatter(known)
-    level = max(known, left_of_cubics(contour))
+    windows = _windows_of(contour)
+    level = max(known, _across(windows))
     if contour.accuracy is None:
-        level = max(level, along_one_direction(contour))
+        level = max(level, _along(windows, contour.closed))
     tells = level > max(known, NO_NOISE * contour.box_diagonal)
     if tells and are_drawn_vertices(contour.points, contour.closed, level):
         return Scatter(known, of_vertices=True)
@@ -106,11 +107,8 @@ def left_of_cubics(contour: Contour) -> float:
     >>> 0.002 < left_of_cubics(circle) < 0.003
     True
     """
-    n_windows = len(contour) - (0 if contour.closed else 2 * HALF_WINDOW)
-    if n_windows < 1:
-        return 0.0
-    left = left_in_windows(contour.points, contour.closed, max(1, n_windows // MOST_WINDOWS))
-    return float(np.sqrt(median(left) / CHI_SQUARED_MEDIAN))
+    few = len(contour) - (0 if contour.closed else 2 * HALF_WINDOW) < 1
+    return 0.0 if few else _across(_windows_of(contour))
 
 
 def left_in_windows(points: FloatArray, closed: bool, step: int = 1) -> FloatArray:
@@ -125,10 +123,7 @@ def left_in_windows(points: FloatArray, closed: bool, step: int = 1) -> FloatArr
     >>> left_in_windows(points, closed=False).round(12).tolist()
     [0.0, 0.0]
     """
-    (x, y), (u, v) = _windows(points, closed, step)
-    across = x * v[:, None] - y * u[:, None]
-    speed_sq = np.maximum(u**2 + v**2, np.finfo(float).tiny)
-    return np.asarray((across**2).sum(axis=1) / speed_sq)
+    return _left(_windows(points, closed, step))
 
 
 def along_one_direction(contour: Contour) -> float:
@@ -151,19 +146,23 @@ def along_one_direction(contour: Contour) -> float:
     >>> bool(0.09 < along_one_direction(Contour(square, closed=True)) < 0.11)
     True
     """
-    n_windows = len(contour) - (0 if contour.closed else 2 * HALF_WINDOW)
-    rests, slopes = _windows(contour.points, contour.closed, max(1, n_windows // MOST_WINDOWS))
-    rest, slope = (part[0] + 1j * part[1] for part in (rests, slopes))
-    turned = rest[:, HALF_WINDOW] ** 2
+    return _along(_windows_of(contour), contour.closed)
+
+
+def _along(windows: _Windows, closed: bool) -> float:
+    """Standard deviation along the one direction, if there is one."""
+    x, y = windows.rests[:, :, HALF_WINDOW]
+    middle = x + 1j * y
+    turned = middle**2
     twice = complex((turned / np.maximum(np.abs(turned), np.finfo(float).tiny)).mean())
     if abs(twice) < DIRECTED:
         return 0.0
     way = np.exp(-0.5j * np.angle(twice))
-    rest, slope = rest * way, slope * way
+    rest, slope = ((part[0] + 1j * part[1]) * way for part in windows)
     slope /= np.maximum(np.abs(slope), np.finfo(float).tiny)
     sine = np.abs(slope.imag)
     # All about it are steep: corners at the ends of a bar are no noise.
-    wide = np.pad(sine > STEEP, HALF_WINDOW, mode="wrap" if contour.closed else "edge")
+    wide = np.pad(sine > STEEP, HALF_WINDOW, mode="wrap" if closed else "edge")
     steep = np.lib.stride_tricks.sliding_window_view(wide, 2 * HALF_WINDOW + 1).all(axis=1)
     if min(steep.mean(), (sine < LEVEL).mean()) < LEAST_SHARE:
         return 0.0
@@ -175,8 +174,34 @@ def along_one_direction(contour: Contour) -> float:
     return along if where_steep >= STEEP_PART * along else 0.0
 
 
-def _windows(points: FloatArray, closed: bool, step: int) -> tuple[FloatArray, FloatArray]:
-    """What cubics leave of every so many-th window, shape (2, m, 7), and their slopes, (2, m)."""
+def _across(windows: _Windows) -> float:
+    """Standard deviation across the outline."""
+    return float(np.sqrt(median(_left(windows)) / CHI_SQUARED_MEDIAN))
+
+
+def _left(windows: _Windows) -> FloatArray:
+    """Sums of squares across the outline."""
+    (x, y), (u, v) = windows
+    across = x * v[:, None] - y * u[:, None]
+    speed_sq = np.maximum(u**2 + v**2, np.finfo(float).tiny)
+    return np.asarray((across**2).sum(axis=1) / speed_sq)
+
+
+class _Windows(NamedTuple):
+    """What cubics leave of windows, shape (2, m, 7), and their slopes in the middle, (2, m)."""
+
+    rests: FloatArray
+    slopes: FloatArray
+
+
+def _windows_of(contour: Contour) -> _Windows:
+    """As many windows of a contour as tell a median."""
+    n_windows = len(contour) - (0 if contour.closed else 2 * HALF_WINDOW)
+    return _windows(contour.points, contour.closed, max(1, n_windows // MOST_WINDOWS))
+
+
+def _windows(points: FloatArray, closed: bool, step: int) -> _Windows:
+    """Every so many-th window."""
     width = 2 * HALF_WINDOW + 1
     points = points - points[0]
     if closed:
@@ -186,7 +211,7 @@ def _windows(points: FloatArray, closed: bool, step: int) -> tuple[FloatArray, F
     for k in range(width):
         windows[:, :, k] = points[k : k + n_windows : step].T
     found = windows @ _SLOPE_AND_REST
-    return found[:, :, 1:], found[:, :, 0]
+    return _Windows(found[:, :, 1:], found[:, :, 0])
 
 
 def largest_bulge(contour: Contour) -> float:

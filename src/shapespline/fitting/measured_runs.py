@@ -123,6 +123,8 @@ class MeasuredRuns:
         node = points[end]
         if len(points) < 2 * (UNCERTAIN + self.degree + 1):
             return None
+        if isinstance(element, DrawnLine) and (element.begin == element.end).all():
+            return None
         step, band = median(np.hypot(*np.diff(points, axis=0).T)), NOISE_BAND * self.noise
         reach = STEPS * step + band
         inner = points[UNCERTAIN:-UNCERTAIN]

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from benchmarks.attack.shapes import drawn
 from benchmarks.drawn.profiles import PROFILES, clean_profile, noisy_profile
 from benchmarks.drawn.truth import Line, sampled
 from scipy.spatial import cKDTree
@@ -276,3 +277,16 @@ def test_stairs_tell_of_no_corners_beyond_them():
     runs = MeasuredRuns(degree=3, noise=1e-9, monitor=Monitor(), clean=True)
     drawn = Drawn((edge, FreeRun(points, (None, None))), (), is_told=True, n_unknowns=2)
     assert np.array_equal(runs.meeting(drawn, closed=False).parts[1].points, points)
+
+
+@pytest.mark.parametrize("seed", [90143, 90530])
+def test_a_run_meets_no_line_that_has_no_length(seed):
+    # Noise in the heights alone, of few digits: lines without an inside are read, and dropped.
+    shape, random = drawn(seed, None), np.random.default_rng([seed, 7])
+    points = np.array(shape.points, dtype=float)
+    deviation = 10.0 ** random.uniform(-5, -1.5) * np.hypot(*np.ptp(points, axis=0))
+    errors = random.normal(0, deviation, points.shape)
+    errors[:, 0] = 0.0
+    measured = deviation * np.round((points + errors) / deviation)
+    contour = Contour.silently(measured, shape.closed)
+    assert ss.fit_curve(contour).n_stored_points > 1
