@@ -7,6 +7,7 @@ beside a line through points on both sides.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -158,16 +159,22 @@ def _told(
 
     Both in deviations, the first one with the error of the curve.
     """
-    vander = np.vander(offsets.astype(float), degree + 1)
-    powers = np.linalg.pinv(vander)
+    vander, powers, error = _least_squares(tuple(offsets.tolist()), degree)
     beside = points[(told[:, None] + offsets) % len(points)]
     found = np.einsum("ck,ikd->icd", powers, beside)
     slope, place = found[:, -2], found[:, -1]
     (x, y), (u, v) = (points[told] - place).T, slope.T
     speed = np.maximum(np.hypot(u, v), np.finfo(float).tiny)
-    error = float(np.sqrt(1.0 + (powers[-1] ** 2).sum()))
     off = np.abs(x * v - y * u) / (speed * error * noise[told])
     left = beside - np.einsum("kc,icd->ikd", vander, found)
     across = (left[..., 0] * v[:, None] - left[..., 1] * u[:, None]) / speed[:, None]
     rest = np.sqrt((across**2).sum(axis=1) / (len(offsets) - degree - 1))
     return off, rest / noise[told]
+
+
+@cache
+def _least_squares(offsets: tuple[int, ...], degree: int) -> tuple[FloatArray, FloatArray, float]:
+    """Powers of offsets, what they make of places there, and the error between both at 0."""
+    vander = np.vander(np.array(offsets, dtype=float), degree + 1)
+    powers = np.linalg.pinv(vander)
+    return vander, powers, float(np.sqrt(1.0 + (powers[-1] ** 2).sum()))
