@@ -22,6 +22,7 @@ from shapespline.analysis.normalization import (
     canonical_reading,
 )
 from shapespline.analysis.outliers import find_outliers
+from shapespline.analysis.pixel_chains import along_pixels
 from shapespline.analysis.reconstruction.ordering import Ordering, looks_shuffled, order_points
 from shapespline.analysis.resolution import (
     NOISE_BAND,
@@ -66,6 +67,7 @@ __all__ = [
     "NormalizedContour",
     "Ordering",
     "Resolution",
+    "along_pixels",
     "are_drawn_vertices",
     "at_end",
     "averaged",

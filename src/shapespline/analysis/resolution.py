@@ -70,13 +70,15 @@ def resolution(contour: Contour, *, of_picture: bool = False) -> Resolution:
     >>> resolution(Contour(shaken, closed=True)).clean
     False
     """
-    noise, of_vertices = scatter(contour)
+    noise, of_vertices, stairs = scatter(contour)
     steps = np.diff(contour.arc_length)
     if of_vertices:
         return Resolution(noise, VERTEX_PART * float(steps.min()), True)
     step = median(steps)
     least, most = (part * contour.box_diagonal for part in BOX_PARTS)
     floor = min(max(SAMPLING_PART * step, least), most)
+    if stairs:
+        return Resolution(noise, max(floor, NOISE_BAND * stairs), False)
     known = contour.accuracy or 0.0
     if noise <= (LETTERS if of_picture else 1.0) * known:
         return Resolution(noise, max(floor, ACCURACY_BAND * noise), True)

@@ -215,9 +215,10 @@ class Estimation:
         """
         # With regularities joints were drawn, but those that turn little are there by chance.
         # Without them every piece is one of three kinds, too, which costs log 3.
-        joints, dearer = 0, -float(np.log(3)) * len(pieces)
-        if told:
-            joints, dearer = self._n_clear_corners(pieces), DRAWN_DEARER
+        joints, dearer = self._n_clear_corners(pieces), DRAWN_DEARER
+        if not told:
+            joints = joints if self._is_polygon(pieces, joints) else 0
+            dearer = -float(np.log(3)) * len(pieces)
         said = Evidence.of_pieces(pieces, self._degree, self.means, self.ordered, joints)
         free = n_unknowns + (0 if self.ordered.closed else 2)
         cost = said.cost + PENALTY * (0.5 * free - said.n_stored_points)
@@ -227,6 +228,11 @@ class Estimation:
         """Corners that turn as much as those of data do."""
         turns = turns_of(pieces, closed=self.ordered.closed)
         return sum(abs(turn) >= LEAST_TURN for turn in turns)
+
+    def _is_polygon(self, pieces: tuple[Piece, ...], n_corners: int) -> bool:
+        """Whether lines alone meet in clear corners: no smooth outline is told so."""
+        n_joints = len(pieces) - (not self.ordered.closed)
+        return n_corners == n_joints and all(piece.kind == "line" for piece in pieces)
 
     def explains(self, evidence: Evidence) -> bool:
         """Whether a curve comes near all points."""

@@ -45,6 +45,7 @@ from shapespline.fitting.strategies import (
     ThroughAll,
     TurnedEnds,
 )
+from shapespline.fitting.whole_chain import WholeChain
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -83,6 +84,9 @@ def _plan_estimate(
         return
     if problem.request.weights is not None:
         yield WeightedSpline()
+        return
+    yield WholeChain(ask)
+    if len(shortlist):
         return
     estimation = Estimation(problem, monitor)
     if problem.request.style.character == "drawn":

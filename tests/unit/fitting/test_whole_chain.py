@@ -1,0 +1,69 @@
+"""Outlines of masks: lines, arcs and smooth curves come back, however the border is given."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from benchmarks.drawn.few_points import is_outline
+from benchmarks.drawn.pixel_chains import BORDERS, POINTS, dense_of, mask_of, off, on_pixels
+from benchmarks.drawn.random_plates import STEP, plate
+from benchmarks.drawn.truth import sampled
+from tests.support.promise import checked
+from tests.support.shapes import flower, on_circle
+
+import shapespline as ss
+
+GIVEN = [(border, points) for border in BORDERS for points in POINTS]
+
+
+def chain(dense, border="middles of pixels", points="all", pixels=200):
+    """The border of a mask, and the outline that it is of."""
+    placed = on_pixels(dense, pixels, np.random.default_rng(1))
+    return POINTS[points](BORDERS[border](mask_of(placed))), placed
+
+
+@pytest.mark.parametrize(("border", "points"), GIVEN)
+@pytest.mark.parametrize("draw", [0, 1], ids=["turned", "level"])
+def test_plates_come_back_from_their_masks(border, points, draw):
+    outline = plate("T", draw, regular=True)
+    given, _ = chain(sampled(outline, STEP), border, points)
+    fit = ss.fit_curve(given, closed=True)
+    assert is_outline(fit, outline)
+    assert any(one.name == "equal-radius" for one in fit.regularities)
+
+
+@pytest.mark.parametrize(("border", "points"), GIVEN)
+def test_smooth_outlines_do_not_follow_stairs(border, points):
+    given, placed = chain(dense_of(flower(600).points), border, points, pixels=300)
+    fit = ss.fit_curve(given, closed=True)
+    # Stairs alone are off by 0.29 pixels.
+    assert off(fit, placed) < 0.2
+    assert fit.n_stored_points < 40
+
+
+def test_circles_are_circles():
+    given, placed = chain(dense_of(on_circle(400)))
+    (piece,) = ss.fit_curve(given, closed=True).pieces
+    assert piece.arc is not None
+    # Their pixels' middles lie inside, by half a pixel in the mean.
+    assert piece.arc.radius == pytest.approx(np.ptp(placed[:, 0]) / 2 - 0.5, abs=0.1)
+
+
+@pytest.mark.parametrize("size", [100, 150, 400])
+def test_a_polygon_that_repeats_nothing_has_its_edges(size):
+    corners = np.array([(0.0, 0.1), (0.55, 0.0), (1.0, 0.42), (0.7, 0.9), (0.12, 0.7)])
+    given, _ = chain(dense_of(corners), pixels=size)
+    fit = ss.fit_curve(given, closed=True)
+    assert [piece.kind for piece in fit.pieces] == ["line"] * 5
+
+
+def test_within_a_tolerance_stairs_are_points_like_others():
+    given, _ = chain(dense_of(flower(600).points), points="at turns", pixels=300)
+    for tolerance in (0.1, 1.0):
+        assert checked(ss.fit_curve(given, closed=True, tolerance=tolerance), tolerance).kept
+
+
+def test_named_corners_are_kept_by_their_indices():
+    given, _ = chain(dense_of(flower(600).points), points="at turns", pixels=300)
+    fit = ss.fit_curve(given, closed=True, corners=[0, 9])
+    assert set(fit.corners.tolist()) <= {0, 9}
