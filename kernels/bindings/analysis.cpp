@@ -1,6 +1,7 @@
 // What points tell before any fit.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/vector.h>
 
 #include <optional>
 #include <utility>
@@ -8,7 +9,7 @@
 #include "arrays.hpp"
 #include "shapespline/analysis/canonical_reading.hpp"
 #include "shapespline/analysis/centroid_distance.hpp"
-#include "shapespline/analysis/corner_turn.hpp"
+#include "shapespline/analysis/corners.hpp"
 #include "shapespline/analysis/cpda.hpp"
 
 using namespace nb::literals;
@@ -67,13 +68,16 @@ void bind_analysis(nb::module_ &m) {
         .def_prop_ro("scale", [](const PosedContour &self) { return self.pose.scale; })
         .def_ro("apart", &PosedContour::apart);
 
+    m.attr("LEAST_TURN") = ss::analysis::kLeastTurn;
+    m.attr("LOW_TURN") = ss::analysis::kLowTurn;
     m.def(
-        "corner_turns",
-        [](In2 points, In1 stations, InIndices vertices, double length, Out1 turns) {
+        "find_corners",
+        [](In2 points, bool closed, In1 arc_length, double sigma, double tolerance, Out1 turns) {
             nb::gil_scoped_release release;
-            ss::analysis::corner_turns({vectors(points), numbers(stations)}, indices(vertices),
-                                       length, turns.data());
+            const ss::analysis::CornerSearch found(vectors(points), closed, numbers(arc_length),
+                                                   sigma, tolerance, numbers(turns));
+            return std::pair{found.indices(), found.length()};
         },
-        "points"_a.noconvert(), "stations"_a.noconvert(), "vertices"_a.noconvert(), "length"_a,
+        "points"_a.noconvert(), "closed"_a, "arc_length"_a.noconvert(), "sigma"_a, "tolerance"_a,
         "turns"_a.noconvert());
 }

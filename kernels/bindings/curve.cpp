@@ -1,4 +1,8 @@
 // Curves: basis functions, points, Bezier pieces, chords.
+#include <nanobind/stl/optional.h>
+
+#include <optional>
+
 #include "arrays.hpp"
 #include "shapespline/curve/bezier.hpp"
 #include "shapespline/curve/bspline.hpp"
@@ -49,30 +53,30 @@ void bind_beziers(nb::module_ &m) {
         "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "points"_a.noconvert(),
         "breakpoints"_a.noconvert());
 
-    m.def(
-        "steps_wanted",
-        [](In2 beziers, int degree, double distance, double longest, Out1 wanted) {
-            nb::gil_scoped_release release;
-            ss::dispatch_degree(degree, [&]<int Degree>() {
-                for (std::size_t s = 0; s < wanted.shape(0); ++s)
-                    wanted.data()[s] = ss::steps_wanted<Degree>(
-                        vectors(beziers).subspan(s * (Degree + 1), Degree + 1), distance, longest);
-            });
-        },
-        "beziers"_a.noconvert(), "degree"_a, "distance"_a, "longest"_a, "wanted"_a.noconvert());
-
-    m.def(
-        "chord_points",
-        [](In2 beziers, int degree, In1 breakpoints, InIndices counts, OutPoints points,
-           Out1 parameters) {
-            nb::gil_scoped_release release;
-            ss::dispatch_degree(degree, [&]<int Degree>() {
-                ss::chord_points<Degree>(vectors(beziers), breakpoints.data(), indices(counts),
-                                         vectors(points).data(), parameters.data());
-            });
-        },
-        "beziers"_a.noconvert(), "degree"_a, "breakpoints"_a.noconvert(), "counts"_a.noconvert(),
-        "points"_a.noconvert(), "parameters"_a.noconvert());
+    nb::class_<ss::Flattening> flattening(m, "Flattening");
+    flattening.attr("SAMPLING") = ss::Flattening::kSampling;
+    flattening.attr("COARSEST") = ss::Flattening::kCoarsest;
+    flattening
+        .def(
+            "__init__",
+            [](ss::Flattening *self, In1 knots, int degree, In2 coefficients,
+               std::optional<double> sampling, double longest) {
+                nb::gil_scoped_release release;
+                new (self) ss::Flattening(knot_vector(knots, degree, false),
+                                          vectors(coefficients), sampling, longest);
+            },
+            "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(),
+            "sampling"_a.none(), "longest"_a)
+        .def_prop_ro("diagonal", &ss::Flattening::diagonal)
+        .def_prop_ro("wanted", &ss::Flattening::wanted)
+        .def_prop_ro("n_points", &ss::Flattening::n_points)
+        .def(
+            "write",
+            [](const ss::Flattening &self, OutPoints points, Out1 parameters) {
+                nb::gil_scoped_release release;
+                self.write(vectors(points).data(), parameters.data());
+            },
+            "points"_a.noconvert(), "parameters"_a.noconvert());
 }
 
 }  // namespace

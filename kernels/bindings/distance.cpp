@@ -13,6 +13,7 @@
 #include "shapespline/distance/deviation.hpp"
 #include "shapespline/distance/near_feet.hpp"
 #include "shapespline/distance/nearest.hpp"
+#include "shapespline/distance/nearest_points.hpp"
 #include "shapespline/distance/sides.hpp"
 #include "shapespline/distance/thinning.hpp"
 
@@ -29,6 +30,16 @@ void bind_distance(nb::module_ &m) {
         },
         "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "queries"_a.noconvert(),
         "parameters"_a.noconvert(), "distances_sq"_a.noconvert());
+
+    m.def(
+        "nearest_points",
+        [](In2 points, In2 queries, OutIndices nearest, Out1 distances) {
+            nb::gil_scoped_release release;
+            ss::nearest_points(vectors(points), vectors(queries), nearest.data(),
+                               distances.data());
+        },
+        "points"_a.noconvert(), "queries"_a.noconvert(), "nearest"_a.noconvert(),
+        "distances"_a.noconvert());
 
     m.def(
         "curve_deviation",

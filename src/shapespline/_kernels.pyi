@@ -31,21 +31,33 @@ def bezier_pieces(
     points: FloatArray,  # out (spans * (degree + 1), 2)
     breakpoints: FloatArray,  # out (spans + 1,)
 ) -> None: ...
-def steps_wanted(
-    beziers: FloatArray,  # (s * (degree + 1), 2)
-    degree: int,
-    distance: float,
-    longest: float,
-    wanted: FloatArray,  # out (s,)
-) -> None: ...
-def chord_points(
-    beziers: FloatArray,  # (s * (degree + 1), 2)
-    degree: int,
-    breakpoints: FloatArray,  # (s + 1,)
-    counts: IntArray,  # (s,)
-    points: FloatArray,  # out (sum of counts + 1, 2)
-    parameters: FloatArray,  # out (sum of counts + 1,)
-) -> None: ...
+
+class Flattening:
+    """Points on a curve so dense that the chords between them stay near it."""
+
+    SAMPLING: float
+    COARSEST: float
+
+    def __init__(
+        self,
+        knots: FloatArray,
+        degree: int,
+        coefficients: FloatArray,  # (nc, 2)
+        sampling: float | None,
+        longest: float,  # of the diagonal
+    ) -> None: ...
+    @property
+    def diagonal(self) -> float: ...
+    @property
+    def wanted(self) -> float: ...  # steps, not yet whole
+    @property
+    def n_points(self) -> int: ...  # while no more than memory holds are wanted
+    def write(
+        self,
+        points: FloatArray,  # out (n_points, 2)
+        parameters: FloatArray,  # out (n_points,)
+    ) -> None: ...
+
 def nearest_on_curve(
     knots: FloatArray,
     degree: int,
@@ -53,6 +65,12 @@ def nearest_on_curve(
     queries: FloatArray,  # (n, 2)
     parameters: FloatArray,  # out (n,)
     distances_sq: FloatArray,  # out (n,)
+) -> None: ...
+def nearest_points(
+    points: FloatArray,  # (k, 2), k >= 1
+    queries: FloatArray,  # (n, 2)
+    nearest: IntArray,  # out (n,), of points as near the first
+    distances: FloatArray,  # out (n,)
 ) -> None: ...
 def curve_deviation(
     knots: FloatArray,
@@ -158,13 +176,18 @@ def eliminated_step(
     damping: float,
     control_step: FloatArray,  # out (m, 2)
 ) -> tuple[bool, float, float]: ...  # solved, predicted decrease, gradient norm
-def corner_turns(
-    points: FloatArray,  # (k, 2)
-    stations: FloatArray,  # (k,), increasing
-    vertices: IntArray,  # (n,), below k
-    length: float,
+
+LEAST_TURN: float
+LOW_TURN: float
+
+def find_corners(
+    points: FloatArray,  # (n, 2)
+    closed: bool,
+    arc_length: FloatArray,  # (n,), or (n + 1,) if closed
+    sigma: float,
+    tolerance: float,
     turns: FloatArray,  # out (n,)
-) -> None: ...
+) -> tuple[list[int], float]: ...  # indices, the length looked at
 def centroid_distances_sq(points: FloatArray, distances_sq: FloatArray) -> None: ...  # (n, 2), (n,)
 def canonical_reading(
     points: FloatArray,  # (n, 2)

@@ -14,7 +14,7 @@ import numpy as np
 from shapespline.analysis import bends_evenly
 from shapespline.fitting.choose import ROUGH_PART
 from shapespline.fitting.smooth import corners_of, row_from
-from shapespline.geometry import PointsByX, turn_between
+from shapespline.geometry import nearest_points, turn_between
 from shapespline.values import CORNER_TURN
 
 if TYPE_CHECKING:
@@ -131,20 +131,22 @@ def _corners(problem: Problem, pieces: Sequence[Piece], turns: dict[int, float])
     In canonical order: of data that lie on themselves several points are as near.
     """
     order = problem.normalized.order
-    data = PointsByX.of(problem.contour.points[order])
-    at = {k: data.nearest(pieces[k].control_points[0])[0] for k in turns}
+    nodes = {k: pieces[k].control_points[0] for k in turns}
+    data = problem.contour.points[order]
+    near = nearest_points(data, np.array([*nodes.values()])).indices
+    at = dict(zip(nodes, near.tolist(), strict=True))
     way = -1 if problem.normalized.reversed else 1
     joints = sorted(turns, key=lambda k: (at[k], way * k))
     corners, found = corners_of(problem), dict.fromkeys(joints, -1)
     if len(corners):
-        nodes = np.array([pieces[k].control_points[0] for k in joints])
-        points = problem.contour.points[corners]
-        to_node, to_corner = PointsByX.of(nodes), PointsByX.of(points)
-        for i, point in enumerate(points):
-            k, distance = to_node.nearest(point)
-            near = distance <= REACH * problem.tolerance
-            if near and to_corner.nearest(nodes[k])[0] == i:
-                found[joints[k]] = int(corners[i])
+        places, points = np.array([nodes[k] for k in joints]), problem.contour.points[corners]
+        to_node, distances = nearest_points(places, points)
+        are_near = distances <= REACH * problem.tolerance
+        both = are_near & (
+            nearest_points(points, places).indices[to_node] == np.arange(len(corners))
+        )
+        for i in np.flatnonzero(both).tolist():
+            found[joints[int(to_node[i])]] = int(corners[i])
     for k in joints:
         if found[k] < 0 and turns[k] > MOST_NEEDLESS:
             found[k] = int(order[at[k]])

@@ -28,6 +28,7 @@ from shapespline.geometry.nearest import (
     PointsByX,
     distance_from_chords,
     nearest,
+    nearest_points,
     nondecreasing,
 )
 from shapespline.geometry.nesting import (
@@ -85,6 +86,7 @@ __all__ = [
     "joined",
     "lines_and_arcs",
     "nearest",
+    "nearest_points",
     "nondecreasing",
     "offset_lines",
     "parametrize",

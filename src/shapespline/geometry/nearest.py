@@ -14,11 +14,6 @@ if TYPE_CHECKING:
     from shapespline.typing import ArrayLike, FloatArray, IntArray
     from shapespline.values import BSplineCurve
 
-# The nearest point is first looked for among so many on either side.
-BESIDE = 8
-# And then in a breadth that sums cannot round it out of.
-ROUNDING = 1e-12
-
 
 class Nearest(NamedTuple):
     """Foot parameters and squared distances of query points, both (k,)."""
@@ -92,6 +87,27 @@ def nondecreasing(parameters: FloatArray, period: float | None = None) -> FloatA
     return ordered
 
 
+class NearestPoints(NamedTuple):
+    """Of each query point the index of the point nearest to it, and its distance, both (n,)."""
+
+    indices: IntArray
+    distances: FloatArray
+
+
+def nearest_points(points: FloatArray, queries: FloatArray) -> NearestPoints:
+    """Which of some points (k, 2) is nearest to each of others (n, 2); of those as near the first.
+
+    Examples
+    --------
+    >>> points = np.array([(0.0, 9.0), (2.0, 1.0), (2.0, -1.0)])
+    >>> nearest_points(points, np.array([(2.0, 0.0), (0.0, 9.0)]))
+    NearestPoints(indices=array([1, 0]), distances=array([1., 0.]))
+    """
+    found = NearestPoints(np.empty(len(queries), dtype=np.int64), np.empty(len(queries)))
+    _kernels.nearest_points(points, queries, *found)
+    return found
+
+
 class PointsByX(NamedTuple):
     """Points in their order, their indices by first coordinate, and these coordinates."""
 
@@ -117,30 +133,7 @@ class PointsByX(NamedTuple):
         """
         return self.points[self._among(low, high)]
 
-    def nearest(self, place: FloatArray) -> tuple[int, float]:
-        """Index and distance of the point nearest to a place; of those as near the first.
-
-        Examples
-        --------
-        >>> points = np.array([(0.0, 9.0), (2.0, 1.0), (2.0, -1.0)])
-        >>> PointsByX.of(points).nearest(np.array([2.0, 0.0]))
-        (1, 1.0)
-        """
-        x = float(place[0])
-        at = int(np.searchsorted(self.sorted_x, x))
-        first = self.indices[max(at - BESIDE, 0) : at + BESIDE]
-        reach = float(self._far(first, place).min())
-        reach += ROUNDING * (reach + abs(x))
-        among = self._among(x - reach, x + reach)
-        far = self._far(among, place)
-        k = int(far.argmin())
-        return int(among[k]), float(far[k])
-
     def _among(self, low: float, high: float) -> IntArray:
         begin = np.searchsorted(self.sorted_x, low, side="left")
         end = np.searchsorted(self.sorted_x, high, side="right")
         return np.sort(self.indices[begin:end])
-
-    def _far(self, indices: IntArray, place: FloatArray) -> FloatArray:
-        away = self.points[indices] - place
-        return np.hypot(away[:, 0], away[:, 1])

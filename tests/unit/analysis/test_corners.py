@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.support.shapes import moved, on_circle, rectangle
 
-from shapespline.analysis.corners import find_corners, tangent_jumps
+from shapespline.analysis.corners import find_corners
 from shapespline.values.contour import Contour
 
 
@@ -116,12 +116,3 @@ def test_corners_are_invariant_under_similarity(scale):
 def test_corners_move_with_the_start():
     shifted = Contour(np.roll(rectangle(40, 20).points, 7, axis=0), closed=True)
     assert find_corners(shifted).indices.tolist() == [7, 47, 67, 107]
-
-
-def test_tangent_jump_has_the_sign_of_the_turn():
-    points = rectangle(20, 20).points
-    square, mirrored = Contour(points, closed=True), Contour(points[::-1], closed=True)
-    left = tangent_jumps(square, 4.0, square.arc_length, np.array([0]))[0]
-    right = tangent_jumps(mirrored, 4.0, mirrored.arc_length, np.array([len(mirrored) - 1]))[0]
-    assert left == pytest.approx(np.pi / 2)
-    assert right == pytest.approx(-np.pi / 2)

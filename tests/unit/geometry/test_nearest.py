@@ -13,7 +13,7 @@ from tests.support.reference import EPS
 from tests.support.shapes import random_curve
 
 from shapespline.errors import InvalidInputError
-from shapespline.geometry.nearest import PointsByX, nearest, nondecreasing
+from shapespline.geometry.nearest import PointsByX, nearest, nearest_points, nondecreasing
 from shapespline.values.curve import BSplineCurve
 
 
@@ -189,10 +189,11 @@ def test_the_nearest_of_points_is_the_first_of_all_as_near(seed):
     rng = np.random.default_rng(seed)
     # On a lattice many are as near; far beside it none of the first looked at is.
     points = rng.integers(0, 12, (300, 2)).astype(float)
-    among = PointsByX.of(points)
-    for place in [*rng.uniform(-5, 17, (40, 2)), *points[:10]]:
-        far = np.hypot(*(points - place).T)
-        assert among.nearest(place) == (int(far.argmin()), float(far.min()))
+    places = np.concatenate([rng.uniform(-5, 17, (40, 2)), points[:10]])
+    found = nearest_points(points, places)
+    far = np.hypot(*(points - places[:, None]).transpose(2, 0, 1))
+    assert (found.indices == far.argmin(axis=1)).all()
+    assert (found.distances == far.min(axis=1)).all()
 
 
 def test_points_between_are_in_their_order():
