@@ -1,12 +1,15 @@
 // Curves: basis functions, points, Bezier pieces, chords.
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/vector.h>
 
 #include <optional>
 
 #include "arrays.hpp"
 #include "shapespline/curve/bezier.hpp"
 #include "shapespline/curve/bspline.hpp"
+#include "shapespline/curve/corner_parameters.hpp"
 #include "shapespline/curve/flatten.hpp"
+#include "shapespline/curve/line_to_corners.hpp"
 
 using namespace nb::literals;
 
@@ -53,6 +56,17 @@ void bind_beziers(nb::module_ &m) {
         "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "points"_a.noconvert(),
         "breakpoints"_a.noconvert());
 
+    m.def(
+        "corner_parameters",
+        [](In1 knots, int degree, In2 coefficients, bool closed, double least) {
+            nb::gil_scoped_release release;
+            return ss::corner_parameters(knot_vector(knots, degree, false), vectors(coefficients),
+                                         closed, least);
+        },
+        "knots"_a.noconvert(), "degree"_a, "coefficients"_a.noconvert(), "closed"_a, "least"_a);
+}
+
+void bind_chords(nb::module_ &m) {
     nb::class_<ss::Flattening> flattening(m, "Flattening");
     flattening.attr("SAMPLING") = ss::Flattening::kSampling;
     flattening.attr("COARSEST") = ss::Flattening::kCoarsest;
@@ -77,6 +91,20 @@ void bind_beziers(nb::module_ &m) {
                 self.write(vectors(points).data(), parameters.data());
             },
             "points"_a.noconvert(), "parameters"_a.noconvert());
+
+    m.attr("MOST_BESIDE_CORNER") = ss::LineToCorners::kMostBeside;
+    m.def(
+        "line_to_corners",
+        [](In1 knots, int degree, bool periodic, In2 coefficients, In2 vertices, In1 parameters,
+           In1 corners, OutPoints line) {
+            nb::gil_scoped_release release;
+            return ss::LineToCorners(vectors(vertices), numbers(parameters), numbers(corners))
+                .write(knot_vector(knots, degree, periodic), vectors(coefficients),
+                       vectors(line).data());
+        },
+        "knots"_a.noconvert(), "degree"_a, "periodic"_a, "coefficients"_a.noconvert(),
+        "vertices"_a.noconvert(), "parameters"_a.noconvert(), "corners"_a.noconvert(),
+        "line"_a.noconvert());
 }
 
 }  // namespace
@@ -84,4 +112,5 @@ void bind_beziers(nb::module_ &m) {
 void bind_curve(nb::module_ &m) {
     bind_splines(m);
     bind_beziers(m);
+    bind_chords(m);
 }

@@ -58,6 +58,26 @@ class Flattening:
         parameters: FloatArray,  # out (n_points,)
     ) -> None: ...
 
+def corner_parameters(
+    knots: FloatArray,
+    degree: int,
+    coefficients: FloatArray,  # (nc, 2)
+    closed: bool,
+    least: float,  # radians
+) -> list[float]: ...
+
+MOST_BESIDE_CORNER: int
+
+def line_to_corners(
+    knots: FloatArray,
+    degree: int,
+    periodic: bool,
+    coefficients: FloatArray,  # (nc, 2)
+    vertices: FloatArray,  # (k, 2), k >= 2
+    parameters: FloatArray,  # (k,)
+    corners: FloatArray,  # (c,)
+    line: FloatArray,  # out (k + c * MOST_BESIDE_CORNER, 2)
+) -> int: ...  # how many were written
 def nearest_on_curve(
     knots: FloatArray,
     degree: int,

@@ -14,7 +14,7 @@ import numpy as np
 
 from shapespline import _kernels
 from shapespline.analysis.run_averages import averaged
-from shapespline.geometry import backwards, reversed_curve
+from shapespline.geometry import backwards, nearest_points, reversed_curve
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
@@ -220,12 +220,9 @@ class NormalizedContour(NamedTuple):
         """Points in data units; those that are points of the contour are the data's to the bit."""
         restored = _turned(points, self.turn.T) / self.scale + self.middle
         if self.data is not None:
-            own, wanted = (p[:, 0] + 1j * p[:, 1] for p in (self.contour.points, points))
-            sorter = np.argsort(own)
-            at = np.searchsorted(own, wanted, sorter=sorter)
-            at = sorter[np.minimum(at, len(own) - 1)]
-            same = own[at] == wanted
-            restored[same] = self.data.points[self.order[at[same]]]
+            found = nearest_points(self.contour.points, points)
+            same = found.distances == 0.0
+            restored[same] = self.data.points[self.order[found.indices[same]]]
         return restored
 
 

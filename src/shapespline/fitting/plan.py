@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from shapespline.analysis import bends_evenly_but_in_corners
 from shapespline.engines.pieces import (
     TOLERANCE_FACTORS,
-    chords_found,
     drawn_straight,
     in_facets,
 )
@@ -176,7 +175,7 @@ def plan_pieces(problem: Problem, shortlist: Shortlist, ask: Ask) -> Iterator[St
     count = found.fit.n_stored_points if found is not None and found.kept else inf
     few, no_lines = count <= rough, True
     if may_be_lines:
-        chords = chords_found(problem.thinned)
+        chords = problem.chords
         few = few and count <= chords.n_points
         no_lines = chords.follow_curve or count <= CHORDS_PART * chords.n_points
     if not (few and no_lines):
@@ -196,8 +195,7 @@ def _follows_no_curve(problem: Problem) -> bool:
     request, contour = problem.request, problem.contour
     if request.effort == "smallest" or not request.is_plain or len(contour) < NO_CURVE_POINTS:
         return False
-    n_chords = chords_found(problem.thinned).n_points
-    rough = n_chords > NO_CURVE_PART * len(contour)
+    rough = problem.chords.n_points > NO_CURVE_PART * len(contour)
     return rough and not bends_evenly_but_in_corners(contour.points)
 
 

@@ -9,12 +9,13 @@ import numpy as np
 
 from shapespline.analysis import NormalizedContour, filled, has_straight_runs
 from shapespline.engines.drawn import as_drawn, drawn_between_corners
-from shapespline.engines.pieces import PiecesProblem
+from shapespline.engines.pieces import PiecesProblem, chords_found
 from shapespline.errors import InvalidInputError
 from shapespline.geometry import PointsByX
 
 if TYPE_CHECKING:
     from shapespline.engines.drawn import Drawn
+    from shapespline.engines.pieces import Chords
     from shapespline.fitting.request import Request
     from shapespline.values import Contour
 
@@ -66,6 +67,11 @@ class Problem:
     def thinned(self) -> PiecesProblem:
         """The same without the points that a search does not need."""
         return self.pieces.thinned()
+
+    @cached_property
+    def chords(self) -> Chords:
+        """A polyline through some of these points, found in one pass."""
+        return chords_found(self.thinned)
 
     @property
     def normalized(self) -> NormalizedContour:

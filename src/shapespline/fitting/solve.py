@@ -39,7 +39,7 @@ def solve(request: Request, monitor: Monitor) -> Fit:
     3
     """
     fit = answer(request, monitor) if request.tolerance is None else _within(request, monitor)
-    return replace(fit, outliers=request.left_out)
+    return replace(fit, outliers=request.left_out) if len(request.left_out) else fit
 
 
 def _within(request: Request, monitor: Monitor) -> Fit:

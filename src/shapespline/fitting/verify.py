@@ -304,8 +304,7 @@ def final_status(fit: Fit, monitor: Monitor) -> Status:
 def finished(verified: Verified, monitor: Monitor) -> Fit:
     """The fit of what was verified, saying whether the monitor ended it."""
     fit = verified.fit
-    return replace(
-        fit,
-        status=final_status(fit, monitor),
-        history=fit.history or tuple(monitor.history),
-    )
+    status, history = final_status(fit, monitor), fit.history or tuple(monitor.history)
+    if status is fit.status and history == fit.history:
+        return fit
+    return replace(fit, status=status, history=history)

@@ -9,9 +9,9 @@ and one knot less.
 from __future__ import annotations
 
 from functools import cache
-from itertools import accumulate, combinations, pairwise
-from math import atan2, comb, hypot
-from typing import TYPE_CHECKING
+from itertools import accumulate, combinations, pairwise, starmap
+from math import atan2, comb, dist, hypot
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -40,21 +40,37 @@ def turn_between(before: Piece, after: Piece) -> float:
     >>> round(float(np.degrees(turn_between(right, up))), 6)
     90.0
     """
-    (ux, uy), (vx, vy) = _last_leg(before), _first_leg(after)
+    return _turn(_way(before.control_points[-2:].tolist()), _way(after.control_points[:2].tolist()))
+
+
+class _Polygon(NamedTuple):
+    """Of a piece's control polygon its length and its first and last way between two points.
+
+    Numbers, not arrays: of a glyph's pieces each is looked at several times.
+    """
+
+    length: float
+    first_leg: tuple[float, float]
+    last_leg: tuple[float, float]
+
+
+def _polygon_of(piece: Piece) -> _Polygon:
+    """That of a piece."""
+    points = piece.control_points.tolist()
+    length = sum(starmap(dist, pairwise(points)))
+    return _Polygon(length, _way(points[:2]), _way(points[-2:]))
+
+
+def _way(ends: Sequence[Sequence[float]]) -> tuple[float, float]:
+    """From one point to another."""
+    (ax, ay), (bx, by) = ends
+    return bx - ax, by - ay
+
+
+def _turn(leg: tuple[float, float], after: tuple[float, float]) -> float:
+    """Signed angle from one way to the next."""
+    (ux, uy), (vx, vy) = leg, after
     return atan2(ux * vy - uy * vx, ux * vx + uy * vy)
-
-
-# Numbers, not arrays: of a glyph's pieces each is looked at several times.
-def _first_leg(piece: Piece) -> tuple[float, float]:
-    """The way from the first control point to the second."""
-    (ax, ay), (bx, by) = piece.control_points[:2].tolist()
-    return bx - ax, by - ay
-
-
-def _last_leg(piece: Piece) -> tuple[float, float]:
-    """The way from the last control point but one to the last."""
-    (ax, ay), (bx, by) = piece.control_points[-2:].tolist()
-    return bx - ax, by - ay
 
 
 def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
@@ -101,12 +117,11 @@ def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
     return BSplineCurve(knots, np.concatenate(points), degree)
 
 
-def _c1_possible(before: Piece, after: Piece) -> bool:
+def _c1_possible(before: _Polygon, after: _Polygon) -> bool:
     """Whether a common tangent and bounded intervals allow the same speed on both sides."""
-    u, v = hypot(*_last_leg(before)), hypot(*_first_leg(after))
+    u, v = hypot(*before.last_leg), hypot(*after.first_leg)
     return (
-        before.degree > 1
-        and abs(turn_between(before, after)) < EXACT_TURN
+        abs(_turn(before.last_leg, after.first_leg)) < EXACT_TURN
         and u < LARGEST_RATIO * v
         and v < LARGEST_RATIO * u
     )
@@ -118,21 +133,22 @@ def _intervals(pieces: Sequence[Piece]) -> tuple[list[float], list[bool]]:
     Widths are polygon lengths, scaled along smooth chains so that speeds agree; a piece that would
     be so much faster or slower than its length asks for begins a chain of its own (GEO-11).
     """
-    widths, smooth = [pieces[0].polygon_length], [False]
-    for before, piece in pairwise(pieces):
-        length, goes_on = piece.polygon_length, _c1_possible(before, piece)
-        width = _as_fast(before, piece, widths[-1]) if goes_on else length
+    polygons = [_polygon_of(piece) for piece in pieces]
+    widths, smooth = [polygons[0].length], [False]
+    for (before, left), (piece, right) in pairwise(zip(pieces, polygons, strict=True)):
+        length, goes_on = right.length, piece.degree > 1 and _c1_possible(left, right)
+        width = _as_fast(before, left, piece, right, widths[-1]) if goes_on else length
         even = length <= MOST_UNEVEN * width and width <= MOST_UNEVEN * length
         smooth.append(goes_on and even)
         widths.append(width if even else length)
     return widths, smooth
 
 
-def _as_fast(before: Piece, piece: Piece, width: float) -> float:
+def _as_fast(before: Piece, left: _Polygon, piece: Piece, right: _Polygon, width: float) -> float:
     """Width of a piece that begins as fast as the one before, of that width, ends."""
     degree = piece.degree
     gap_before = width * (before.knots[-degree - 1] - before.knots[-degree - 2])
-    u, v = hypot(*_last_leg(before)), hypot(*_first_leg(piece))
+    u, v = hypot(*left.last_leg), hypot(*right.first_leg)
     gap = piece.knots[degree + 1] - piece.knots[degree]
     return float(gap_before * v / u / gap)
 

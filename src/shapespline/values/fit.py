@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.errors import InvalidInputError
 
 if TYPE_CHECKING:
@@ -182,15 +183,12 @@ class Fit(ByValue, Shown, Exchanged, FitMethods):
     @cached_property
     def corners(self) -> FloatArray:
         """Parameters where the curve turns by more than a degree, shape (c,)."""
-        pieces, breakpoints = self.spline.beziers()
-        arriving, leaving = pieces[:, -1] - pieces[:, -2], pieces[:, 1] - pieces[:, 0]
-        if self.closed:
-            before, at = np.roll(arriving, 1, axis=0), breakpoints[:-1]
-        else:
-            before, leaving, at = arriving[:-1], leaving[1:], breakpoints[1:-1]
-        turn = before[:, 0] * leaving[:, 1] - before[:, 1] * leaving[:, 0]
-        along = (before * leaving).sum(axis=1)
-        corners = at[np.abs(np.arctan2(turn, along)) > CORNER_TURN]
+        spline = self.spline
+        corners = np.array(
+            _kernels.corner_parameters(
+                spline.knots, spline.degree, spline.coefficients, self.closed, CORNER_TURN
+            )
+        )
         corners.setflags(write=False)
         return corners
 

@@ -9,6 +9,7 @@ from shapespline.engines.pieces.engine import (
     search_pieces,
 )
 from shapespline.engines.pieces.fallbacks import (
+    Chords,
     chords_found,
     drawn_straight,
     drawn_with_lines,
@@ -24,6 +25,7 @@ from shapespline.engines.pieces.search import n_points_of
 __all__ = [
     "PIECE_DEGREE",
     "TOLERANCE_FACTORS",
+    "Chords",
     "Constraints",
     "MirroredHalf",
     "PiecesProblem",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.geometry import chords, nearest
 from shapespline.values import BSplineCurve, Piece
 
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
 
 # Repairs look at curves as polylines within this part of their tolerance (FIT-17).
 SAMPLING_PART = 0.002
-# Beside corners chords are shorter and shorter, by these parts.
-HALVINGS = 0.5 ** np.arange(2, 21, 2)
 # A node is first looked for among points whose arc length differs from its own by at most this part
 # of the piece before it and so many tolerances (FIT-13).
 ALONG, TOLERANCES = 0.3, 4.0
@@ -150,22 +149,19 @@ def line_of(curve: BSplineCurve, tolerance: float, corners: FloatArray) -> Float
     points, parameters = chords(curve, SAMPLING_PART * tolerance)
     if curve.degree == 1 or not len(corners):
         return points
-    steps = np.diff(parameters)
-    before = np.minimum(np.searchsorted(parameters, corners), len(steps)) - 1
-    beside = [
-        (corners[:, None] + sign * steps[at][:, None] * HALVINGS).ravel()
-        for at, sign in ((before, -1), ((before + 1) % len(steps), 1))
-    ]
-    more = np.concatenate(beside)
-    if (points[0] == points[-1]).all():  # beside the seam, too
-        more = np.where(more < parameters[0], more + parameters[-1] - parameters[0], more)
-    more = np.sort(more)
-    more = more[(more > parameters[0]) & (more < parameters[-1])]
-    is_new = parameters[np.searchsorted(parameters, more)] != more
-    is_new[1:] &= more[1:] > more[:-1]
-    more = more[is_new]
-    order = np.argsort(np.concatenate([parameters, more]), kind="stable")
-    return np.concatenate([points, curve(more)])[order]
+    most = len(points) + len(corners) * _kernels.MOST_BESIDE_CORNER
+    line = np.empty((most, 2))
+    count = _kernels.line_to_corners(
+        curve.knots,
+        curve.degree,
+        curve.periodic,
+        curve.coefficients,
+        points,
+        parameters,
+        corners,
+        line,
+    )
+    return line[:count]
 
 
 def _chords(piece: Piece, tolerance: float) -> FloatArray:
