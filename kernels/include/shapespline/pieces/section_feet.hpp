@@ -41,6 +41,7 @@ inline void improve_feet(const SpanPolynomial *spans, int n_spans, const Vec2 *d
             best = distance_sq;
             best_s = s;
             best_v = v;
+            if (step == iterations) break;
             const Vec2 tangent = spans[s].velocity(v);
             const double speed_sq = norm_sq(tangent);
             const double curvature =
