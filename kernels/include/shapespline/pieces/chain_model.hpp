@@ -150,6 +150,8 @@ class ChainModel {
         return {sections_[s].degree, sections_[s].points.size(),
                 state.knots.data() + knot_offset_[s], state.points.data() + point_offset_[s]};
     }
+    // The same as it began: its kind is that of every state.
+    SectionView shape(std::size_t s) const { return view(sections_[s]); }
     const BasisTaylor *taylor(std::size_t s) const { return taylor_.data() + span_offset_[s]; }
     const SpanPolynomial *spans(std::size_t s) const { return spans_.data() + span_offset_[s]; }
     int n_spans(std::size_t s) const {

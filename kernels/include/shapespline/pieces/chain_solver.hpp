@@ -98,7 +98,7 @@ class ChainSolver {
         std::size_t next = 0, node = model_.node_free(0) ? next : kNone;
         if (node != kNone) next += 2;
         for (std::size_t s = 0; s < model_.size(); ++s) {
-            const SectionView section = model_.section(shape_only_, s);
+            const SectionView section = model_.shape(s);
             const std::size_t n = section.n_points;
             const std::size_t n_knots = free_knots ? section.n_interior_knots() : 0;
             auto &unknown = unknown_[s];
@@ -123,7 +123,7 @@ class ChainSolver {
         }
         is_abscissa_.assign(next, false);
         for (std::size_t s = 0; s < model_.size(); ++s)
-            for (std::size_t l = 0; l < model_.section(shape_only_, s).n_points; ++l)
+            for (std::size_t l = 0; l < model_.shape(s).n_points; ++l)
                 if (unknown_[s][2 * l] != kNone) is_abscissa_[unknown_[s][2 * l]] = true;
         std::vector<std::size_t> first_column(next);
         for (std::size_t i = 0; i < next; ++i) first_column[i] = i;
@@ -144,7 +144,7 @@ class ChainSolver {
 
     // Widens the rows of the unknowns that shape a span to the lowest of them.
     void couple(std::size_t s, std::vector<std::size_t> &first_column) const {
-        const SectionView section = model_.section(shape_only_, s);
+        const SectionView section = model_.shape(s);
         const std::size_t p = section.degree, n = section.n_points;
         const std::size_t n_knots = unknown_[s].size() - 2 * n;
         std::vector<std::size_t> active;
@@ -165,7 +165,7 @@ class ChainSolver {
         std::array<std::size_t, 6> at;
         at.fill(kNone);
         if (i > 0) {
-            const std::size_t last = 2 * model_.section(shape_only_, i - 1).n_points - 1;
+            const std::size_t last = 2 * model_.shape(i - 1).n_points - 1;
             for (int k = 0; k < 4; ++k) at[k] = unknown_[i - 1][last - 3 + k];
         }
         if (i < model_.size())
@@ -311,7 +311,6 @@ class ChainSolver {
     }
 
     ChainModel &model_;
-    ChainState shape_only_ = model_.initial_state();
     SectionNormal normal_;
     std::vector<std::vector<std::size_t>> unknown_;
     EnvelopeMatrix matrix_{std::vector<std::size_t>{}}, factor_ = matrix_;
