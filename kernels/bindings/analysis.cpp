@@ -11,6 +11,7 @@
 #include "shapespline/analysis/centroid_distance.hpp"
 #include "shapespline/analysis/corners.hpp"
 #include "shapespline/analysis/cpda.hpp"
+#include "shapespline/analysis/largest_bulge.hpp"
 
 using namespace nb::literals;
 
@@ -67,6 +68,14 @@ void bind_analysis(nb::module_ &m) {
         .def_prop_ro("side", [](const PosedContour &self) { return self.pose.side; })
         .def_prop_ro("scale", [](const PosedContour &self) { return self.pose.scale; })
         .def_ro("apart", &PosedContour::apart);
+
+    m.def(
+        "largest_bulge",
+        [](In2 points, bool closed) {
+            nb::gil_scoped_release release;
+            return ss::analysis::largest_bulge(vectors(points), closed);
+        },
+        "points"_a.noconvert(), "closed"_a);
 
     m.attr("LEAST_TURN") = ss::analysis::kLeastTurn;
     m.attr("LOW_TURN") = ss::analysis::kLowTurn;

@@ -196,6 +196,7 @@ def eliminated_step(
     damping: float,
     control_step: FloatArray,  # out (m, 2)
 ) -> tuple[bool, float, float]: ...  # solved, predicted decrease, gradient norm
+def largest_bulge(points: FloatArray, closed: bool) -> float: ...  # (n, 2), n >= 5
 
 LEAST_TURN: float
 LOW_TURN: float

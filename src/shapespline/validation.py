@@ -86,11 +86,15 @@ def distinct(*indices: IntArray) -> IntArray:
 
 def is_number(value: object) -> bool:
     """Whether a value is a real number, and neither a truth value nor a text."""
+    if type(value) in (float, int):  # at once: to ask an abstract class takes ten times as long
+        return True
     return isinstance(value, Real) and not isinstance(value, bool)
 
 
 def whole_number(value: object) -> int | None:
     """A number without fraction (3, 3.0, numpy.int64(3)) as an int; None for anything else."""
+    if type(value) is int:
+        return value
     if isinstance(value, bool) or not isinstance(value, Real):
         return None
     if isinstance(value, Integral):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.analysis.drawn_vertices import are_drawn_vertices
 from shapespline.analysis.pixel_chains import pixel_of
 from shapespline.validation import median, smallest_of
@@ -239,15 +240,9 @@ def largest_bulge(contour: Contour) -> float:
     >>> bool(np.isclose(largest_bulge(circle), 1 - np.cos(np.pi / 60), rtol=0.01))
     True
     """
-    points = contour.points - contour.points[0]
-    if len(points) < FEWEST_OF_CURVE:
+    if len(contour) < FEWEST_OF_CURVE:
         return 0.0
-    if contour.closed:
-        points = np.concatenate([points[-2:], points, points[:2]])
-    a, b, c, d, e = (points[k : len(points) - 4 + k] for k in range(5))
-    bulge = float(np.hypot(*(b + c - a - d).T).max()) / 16
-    rest = float(np.hypot(*(a - 4 * b + 6 * c - 4 * d + e).T).max()) / 6
-    return bulge if rest < bulge else 0.0
+    return _kernels.largest_bulge(contour.points, contour.closed)
 
 
 def left_out(contour: Contour) -> float:
