@@ -20,11 +20,14 @@ from PIL import Image
 import shapespline as ss
 from benchmarks import center_lines
 from benchmarks.drawn.measuring import measured
+from benchmarks.drawn.pixel_chains import level_line, mask_of, on_pixels
 from benchmarks.drawn.shapes import rounded
 from benchmarks.drawn.truth import sampled
 from benchmarks.figure_style import save
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from matplotlib.axes import Axes
 
     from shapespline.typing import FloatArray
@@ -39,6 +42,8 @@ BRACKET = (
     [(0, 0), (100, 0), (100, 35), (40, 35), (40, 90), (0, 90)],
     [8.0, 8.0, 8.0, 12.0, 8.0, 0.0],
 )
+# Pixels of its mask.
+MASK = 120
 MEASURED = {
     "1 % strays": "one point of a hundred is a stray",
     "half three times as rough": "one half is rougher",
@@ -274,6 +279,15 @@ def bracket(way: str) -> FloatArray:
     return measured(sampled(rounded(*BRACKET), 0.02), way, 0.0025, np.random.default_rng(1))
 
 
+def _show_pieces(axes: Axes, pieces: Iterable[ss.Piece]) -> None:
+    """Lines and arcs in their colours."""
+    for piece in pieces:
+        curve = ss.BSplineCurve(piece.knots, piece.control_points, piece.degree)
+        along = curve(np.linspace(*piece.knots[[0, -1]], 200))
+        axes.plot(*along.T, color=BLUE if piece.kind == "arc" else ORANGE, lw=2.0)
+        axes.plot(*piece.control_points[[0, -1]].T, "o", color="black", ms=3)
+
+
 def measured_parts(_: Path) -> None:
     """A bracket measured in three ways, and the lines and arcs that come back."""
     figure, axes = canvas(len(MEASURED))
@@ -281,21 +295,37 @@ def measured_parts(_: Path) -> None:
         points = bracket(way)
         fit = ss.fit_curve(points, closed=True)
         one.plot(*points.T, ".", color=GREY, ms=4)
-        for piece in fit.pieces:
-            curve = ss.BSplineCurve(piece.knots, piece.control_points, piece.degree)
-            ends = piece.control_points[[0, -1]]
-            along = curve(np.linspace(*piece.knots[[0, -1]], 200))
-            one.plot(*along.T, color=BLUE if piece.kind == "arc" else ORANGE, lw=2.0)
-            one.plot(*ends.T, "o", color="black", ms=3)
+        _show_pieces(one, fit.pieces)
         count = {kind: sum(p.kind == kind for p in fit.pieces) for kind in ("line", "arc")}
         one.set_title(f"{said}: {count['line']} lines, {count['arc']} arcs")
     save(figure, TARGET / "measured.png", dpi=80)
 
 
+def masks(_: Path) -> None:
+    """A bracket's mask, its border, and the lines and arcs that come back."""
+    outline = on_pixels(sampled(rounded(*BRACKET), 0.02), MASK, np.random.default_rng(1))
+    mask = mask_of(outline)
+    border = level_line(mask)
+    fit = ss.fit_curve(border, closed=True)
+    figure, (left, middle, right) = canvas(3)
+    for one in (left, middle, right):
+        one.imshow(mask, cmap="Greys", vmax=4, origin="lower")
+    left.set_title(f"a mask of {MASK} pixels")
+    for one in (middle, right):
+        one.plot(*border.T, ".-", color=GREY, ms=3, lw=0.6)
+        _show_pieces(one, fit.pieces)
+    right.set_xlim(border[:, 0].max() - 30, border[:, 0].max() + 3)
+    right.set_ylim(border[:, 1].min() - 3, border[:, 1].min() + 30)
+    right.set_title("its corner at the lower right, enlarged")
+    count = {kind: sum(p.kind == kind for p in fit.pieces) for kind in ("line", "arc")}
+    middle.set_title(f"its border, {count['line']} lines, {count['arc']} arcs")
+    save(figure, TARGET / "mask.png", dpi=80)
+
+
 def main() -> None:
     """All of them, in a temporary folder."""
     pages = (logo_to_dxf, machines, leaf_to_step, points_to_svg, folder_of_files, centerlines)
-    pages += (drawings, chords, measured_parts)
+    pages += (drawings, chords, measured_parts, masks)
     for page in pages:
         with tempfile.TemporaryDirectory() as folder:
             page(Path(folder))

@@ -15,6 +15,7 @@ from benchmarks.drawn.few_points import exported_table, measured_table, organic_
 from benchmarks.drawn.limits import limits_table
 from benchmarks.drawn.measuring import measuring_table
 from benchmarks.drawn.page import write_page
+from benchmarks.drawn.pixel_chains import chains_table
 from benchmarks.drawn.profiles import clean_table, profiles_table
 from benchmarks.drawn.tables import pictures_tables, recovered_table, sampled_table
 
@@ -71,6 +72,15 @@ chord is within it.
 
 """
 
+CHAINS = """
+The regular ones as the borders of masks (`python -m benchmarks.drawn.pixel_chains`): the pixels
+whose middles lie in a plate of 200 or 500 of them, their border as the middles of its pixels, as
+corners of pixels, or as the level line of the mask; all points, or those alone where it turns. How
+many fits without a tolerance have the lines and arcs that were drawn and nothing else; then a leaf,
+a hand, a dove and a letter, their stored points and how many pixels they are off.
+
+"""
+
 FEW = """
 Few measured points, 24 to 60 of shapes 60 wide (`python -m benchmarks.drawn.few_points`): how many
 fits have the lines and arcs that were drawn and nothing else. Within a tolerance corners between
@@ -100,7 +110,7 @@ def main() -> None:
     points += f"{limits_table()}{PROFILES}{profiles_table()}{CLEAN}{clean_table()}"
     points += f"{RANDOM}{random_plates.clean_table()}\n{random_plates.noisy_table()}"
     points += f"{NOISY}{random_plates.within_table()}{TRACED}{random_plates.pictures_table()}"
-    points += f"{MEASURING}{measuring_table()}"
+    points += f"{MEASURING}{measuring_table()}{CHAINS}{chains_table()}"
     points += f"{FEW}{measured_table()}{EXPORTED}{exported_table()}{ORGANIC}{organic_table()}"
     print("\n".join([*pictures.texts, points, *pictures.left_out]))
     if asked.page:

@@ -22,7 +22,7 @@ from shapespline.analysis.normalization import (
     canonical_reading,
 )
 from shapespline.analysis.outliers import find_outliers
-from shapespline.analysis.pixel_chains import along_pixels
+from shapespline.analysis.pixel_chains import GOING_ON, along_pixels, pixel_of
 from shapespline.analysis.reconstruction.ordering import Ordering, looks_shuffled, order_points
 from shapespline.analysis.resolution import (
     NOISE_BAND,
@@ -54,6 +54,7 @@ from shapespline.analysis.uneven_noise import precisions
 __all__ = [
     "FEWEST_STRAIGHT",
     "FEW_LEFT",
+    "GOING_ON",
     "LEAST_TURN",
     "LONGEST_CHORD",
     "LOW_TURN",
@@ -94,6 +95,7 @@ __all__ = [
     "neighbours_to_average",
     "noise_level",
     "order_points",
+    "pixel_of",
     "precisions",
     "resolution",
     "rounded",

@@ -12,7 +12,6 @@ import numpy as np
 
 from shapespline import _kernels
 from shapespline.analysis.drawn_vertices import are_drawn_vertices
-from shapespline.analysis.pixel_chains import pixel_of
 from shapespline.validation import median, smallest_of
 
 if TYPE_CHECKING:
@@ -40,9 +39,6 @@ STEEP, LEVEL, LEAST_SHARE = 0.5, 0.25, 0.1
 EVEN_PART, FEWEST_TO_PREDICT = 0.65, 5
 # So many of the points are no corners.
 PREDICTED_PART = 0.75
-# Neighbours in a chain of pixels scatter by so much of one where it is not level, and its errors go
-# on along the stairs as if they were so much (ANA-24).
-STAIRS, GOING_ON = 12.0**-0.5, 0.6
 # A cubic fitted to a window: its slope in the middle, and what is left of every point.
 _POWERS = np.vander(np.arange(-HALF_WINDOW, HALF_WINDOW + 1), 4)
 _FIT = np.linalg.pinv(_POWERS)
@@ -52,14 +48,10 @@ CHI_SQUARED_MEDIAN = 2.365974
 
 
 class Scatter(NamedTuple):
-    """Standard deviation across the outline, data units.
-
-    Whether vertices look so scattered; and by how much neighbours in a chain of pixels scatter.
-    """
+    """Standard deviation across the outline, data units, and whether vertices look so scattered."""
 
     noise: float
     of_vertices: bool = False
-    stairs: float = 0.0
 
 
 def noise_level(contour: Contour) -> float:
@@ -84,7 +76,7 @@ def noise_level(contour: Contour) -> float:
 
 
 def scatter(contour: Contour) -> Scatter:
-    """The same, and whether the points are the vertices of what was drawn, or a chain of pixels."""
+    """The same, and whether the points are the vertices of what was drawn."""
     known = contour.accuracy or 0.0
     if not tells_noise(contour):
         return Scatter(known)
@@ -95,9 +87,6 @@ def scatter(contour: Contour) -> Scatter:
     tells = level > max(known, NO_NOISE * contour.box_diagonal)
     if tells and are_drawn_vertices(contour.points, contour.closed, level):
         return Scatter(known, of_vertices=True)
-    pixel = 0.0 if known else pixel_of(contour.points, contour.closed)
-    if pixel:
-        return Scatter(GOING_ON * pixel, stairs=max(level, STAIRS * pixel))
     return Scatter(level)
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from shapespline.analysis.noise import tells_noise
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 # a polygon, which may have been drawn so, that many beside level edges and as many beside upright
 # ones. No longer chain is put together from a polygon (ANA-24).
 OFF_GRID, FEWEST_STAIRS, FEWEST_EACH_WAY, LONGEST_CHAIN = 0.05, 3, 4, 200_000
+# Neighbours scatter by so much of a pixel where a chain is not level, and errors go on along its
+# stairs as if they were so much (ANA-24).
+STAIRS, GOING_ON = 12.0**-0.5, 0.6
 # So many steps tell at once that points are no such chain.
 FIRST_STEPS = 16
 
@@ -34,21 +38,24 @@ class _Stairs(NamedTuple):
 NO_STAIRS = _Stairs(0, 0, 0)
 
 
-def pixel_of(points: FloatArray, closed: bool) -> float:
+def pixel_of(contour: Contour) -> float:
     """Side of the pixels that points go along one by one, in stairs; 0 where they do not.
 
     From the middle of a pixel to that of a neighbour, from corner to corner, or between the middles
-    of their sides, as the level line of a mask does.
+    of their sides, as the level line of a mask does. Few points tell of none, nor those whose
+    accuracy is known.
 
     Examples
     --------
     >>> angle = np.pi * np.arange(2000) / 1000
     >>> circle = np.rint(20 * np.column_stack([np.cos(angle), np.sin(angle)]))
-    >>> chain = circle[(circle != np.roll(circle, 1, axis=0)).any(axis=1)]
-    >>> pixel_of(0.5 * chain, closed=True), pixel_of(0.5 * chain[::2], closed=True)
+    >>> chain = 0.5 * circle[(circle != np.roll(circle, 1, axis=0)).any(axis=1)]
+    >>> pixel_of(Contour(chain, closed=True)), pixel_of(Contour(chain[::2], closed=True))
     (0.5, 0.0)
     """
-    pixel, stairs = _chain(points, closed)
+    if contour.accuracy is not None or not tells_noise(contour):
+        return 0.0
+    pixel, stairs = _chain(contour.points, contour.closed)
     return pixel if stairs.total >= FEWEST_STAIRS else 0.0
 
 
@@ -151,9 +158,12 @@ def _stairs_of(steps: IntArray, closed: bool, *, between: bool) -> _Stairs:
     (ax, ay), (bx, by) = np.roll(ways, 1, axis=0).T, ways.T
     turns = np.sign(ax * by - ay * bx)
     lengths = (ends - begins) * np.where(between & (ways != 0).all(axis=1), 0.5, 1.0)
-    stairs = (lengths <= 1.0) & (turns * np.roll(turns, -1) < 0)
+    turns_back = turns * np.roll(turns, -1) < 0
+    stairs = (lengths <= 1.0) & turns_back
     if not closed:
         stairs[[0, -1]] = False
+    # Teeth turn twice one way, then twice the other.
+    stairs &= np.roll(turns_back, 1) | np.roll(turns_back, -1)
     # One beside edges of one pixel alone may be beside either kind.
     longer = np.maximum(np.roll(lengths, 1), np.roll(lengths, -1)) > 1.0
     flat, steep = longer & (np.abs(ax) > np.abs(ay)), longer & (np.abs(ax) < np.abs(ay))

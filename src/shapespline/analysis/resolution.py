@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis.noise import left_out, scatter
+from shapespline.analysis.pixel_chains import GOING_ON, STAIRS, pixel_of
 from shapespline.validation import median
 
 if TYPE_CHECKING:
@@ -70,15 +71,16 @@ def resolution(contour: Contour, *, of_picture: bool = False) -> Resolution:
     >>> resolution(Contour(shaken, closed=True)).clean
     False
     """
-    noise, of_vertices, stairs = scatter(contour)
+    noise, of_vertices = scatter(contour)
     steps = np.diff(contour.arc_length)
     if of_vertices:
         return Resolution(noise, VERTEX_PART * float(steps.min()), True)
     step = median(steps)
     least, most = (part * contour.box_diagonal for part in BOX_PARTS)
     floor = min(max(SAMPLING_PART * step, least), most)
-    if stairs:
-        return Resolution(noise, max(floor, NOISE_BAND * stairs), False)
+    if pixel := pixel_of(contour):
+        band = max(floor, NOISE_BAND * max(noise, STAIRS * pixel))
+        return Resolution(GOING_ON * pixel, band, False)
     known = contour.accuracy or 0.0
     if noise <= (LETTERS if of_picture else 1.0) * known:
         return Resolution(noise, max(floor, ACCURACY_BAND * noise), True)

@@ -9,7 +9,7 @@ from tests.support.toothed import comb, finger_plate, star
 import shapespline as ss
 from shapespline.analysis import resolution
 from shapespline.analysis.drawn_vertices import are_drawn_vertices
-from shapespline.analysis.noise import Scatter, noise_level, scatter
+from shapespline.analysis.noise import noise_level, scatter
 from shapespline.values import Contour
 
 
@@ -35,7 +35,7 @@ TOOTHED = {
 def test_vertices_of_a_drawing_are_no_noise(name):
     points, closed = TOOTHED[name]
     contour = Contour(points, closed)
-    assert scatter(contour) == Scatter(0.0, of_vertices=True)
+    assert scatter(contour) == (0.0, True)
     assert resolution(contour).band < 0.02 * np.diff(contour.arc_length).min()
 
 

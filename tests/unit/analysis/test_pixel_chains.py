@@ -7,9 +7,14 @@ import pytest
 from benchmarks.drawn.pixel_chains import BORDERS, mask_of, turns_of
 from tests.support.shapes import on_circle
 
-from shapespline.analysis import noise_level
-from shapespline.analysis.noise import GOING_ON, STAIRS, left_of_cubics
-from shapespline.analysis.pixel_chains import FEWEST_EACH_WAY, along_pixels, pixel_of
+from shapespline.analysis.noise import FEWEST_POINTS, left_of_cubics, noise_level
+from shapespline.analysis.pixel_chains import (
+    FEWEST_EACH_WAY,
+    GOING_ON,
+    STAIRS,
+    along_pixels,
+    pixel_of,
+)
 from shapespline.analysis.resolution import NOISE_BAND, resolution
 from shapespline.values.contour import Contour
 
@@ -53,24 +58,33 @@ def test_pixels_are_told_wherever_the_border_begins_and_whichever_way_it_runs(na
     rounding = 2 * np.finfo(float).eps * np.abs(chain).max()  # of both ends of a step
     for first in (0, 1, 7, len(chain) // 2):
         turned = np.roll(chain, -first, axis=0)
-        assert pixel_of(turned, closed=True) == pytest.approx(side, abs=rounding)
-        assert pixel_of(turned[::-1], closed=True) == pytest.approx(side, abs=rounding)
-    assert pixel_of(chain[: len(chain) - 30], closed=False) == pytest.approx(side, abs=rounding)
+        assert pixel_of(Contour(turned, closed=True)) == pytest.approx(side, abs=rounding)
+        assert pixel_of(Contour(turned[::-1], closed=True)) == pytest.approx(side, abs=rounding)
+    assert pixel_of(Contour(chain[: len(chain) - 30], closed=False)) == pytest.approx(
+        side, abs=rounding
+    )
 
 
-@pytest.mark.parametrize("points", [SQUARE, OCTAGON, COMB, SHAFT], ids=len)
+# Teeth as deep as they are wide.
+CRENELS = polygon(
+    (0, -9),
+    *((x, y) for k in range(0, 80, 2) for x, y in ((k, 0), (k, 1), (k + 1, 1), (k + 1, 0))),
+)
+
+
+@pytest.mark.parametrize("points", [SQUARE, OCTAGON, COMB, CRENELS, SHAFT], ids=len)
 def test_what_was_drawn_on_pixels_without_stairs_is_no_chain(points):
-    assert pixel_of(points, closed=True) == 0.0
-    assert noise_level(Contour(points, closed=True)) < 1e-9
+    assert pixel_of(Contour(points, closed=True)) == 0.0
+    assert along_pixels(Contour(turns_of(points), closed=True)) is None
 
 
 def test_points_that_leave_pixels_out_or_lie_beside_them_are_no_chain():
     chain = border("middles of pixels")
-    assert pixel_of(chain[::2], closed=True) == 0.0
-    assert pixel_of(np.delete(chain, 100, axis=0), closed=True) == 0.0
+    assert pixel_of(Contour(chain[::2], closed=True)) == 0.0
+    assert pixel_of(Contour(np.delete(chain, 100, axis=0), closed=True)) == 0.0
     shaken = chain + np.random.default_rng(1).uniform(-0.1, 0.1, chain.shape)
-    assert pixel_of(shaken, closed=True) == 0.0
-    assert pixel_of(chain[:2], closed=False) == 0.0
+    assert pixel_of(Contour(shaken, closed=True)) == 0.0
+    assert pixel_of(Contour(chain[:2], closed=False)) == 0.0
 
 
 @pytest.mark.parametrize("name", BORDERS)
@@ -78,8 +92,9 @@ def test_a_level_border_has_the_noise_of_its_stairs(name):
     contour = Contour(2.0 * border(name), closed=True)
     shown = resolution(contour)
     assert not shown.clean
-    assert shown.noise == noise_level(contour) == pytest.approx(GOING_ON * 2.0)
+    assert shown.noise == pytest.approx(GOING_ON * 2.0)
     # More than half of the border is level: neighbours leave nothing.
+    assert noise_level(contour) < 1e-9
     assert shown.band == pytest.approx(NOISE_BAND * STAIRS * 2.0)
 
 
@@ -88,15 +103,25 @@ def test_curves_may_be_farther_from_rougher_masks():
     steps = np.repeat(np.random.default_rng(2).integers(-2, 3, 400), 10)
     rough = BORDERS["middles of pixels"](mask_of((1 + steps[:, None] / 60) * circle + 80))
     contour = Contour(rough, closed=True)
-    assert noise_level(contour) == GOING_ON
+    assert resolution(contour).noise == GOING_ON
     assert left_of_cubics(contour) > STAIRS
     assert resolution(contour).band == NOISE_BAND * left_of_cubics(contour)
 
 
 def test_an_accuracy_that_is_given_counts_instead():
     points = border("middles of pixels")
-    assert noise_level(Contour(points, closed=True, accuracy=0.01)) == 0.01
-    assert noise_level(Contour(points, closed=True, accuracy=0.0)) == 0.0
+    for accuracy in (0.0, 0.01):
+        contour = Contour(points, closed=True, accuracy=accuracy)
+        assert pixel_of(contour) == 0.0
+        assert resolution(contour).noise == accuracy
+
+
+def test_few_points_tell_no_chain():
+    angle = 2 * np.pi * np.arange(4000) / 4000
+    for radius, told in ((9.0, False), (14.0, True)):
+        disc = mask_of(radius * np.column_stack([np.cos(angle), np.sin(angle)]) + 20)
+        contour = Contour(BORDERS["middles of pixels"](disc), closed=True)
+        assert (len(contour) >= FEWEST_POINTS) == told == (pixel_of(contour) == 1.0)
 
 
 @pytest.mark.parametrize("name", BORDERS)
@@ -114,8 +139,6 @@ def test_pixels_that_were_left_out_between_turns_are_put_back(name):
 
 
 def test_a_polygon_that_was_drawn_is_left_alone():
-    for drawn in (SQUARE, OCTAGON, COMB, SHAFT):
-        assert along_pixels(Contour(turns_of(drawn), closed=True)) is None
     # Counts of events in time rise by one: stairs, but beside level edges alone.
     times = np.cumsum(np.random.default_rng(3).integers(1, 9, 60))
     count = np.column_stack([np.repeat(times, 2)[1:], np.repeat(np.arange(60), 2)[:-1]])

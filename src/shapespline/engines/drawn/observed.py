@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline.analysis import (
+    GOING_ON,
     left_by_rounding,
     means_of,
     neighbours_to_average,
     noise_level,
+    pixel_of,
     rounded,
     with_points_on_lines,
 )
@@ -108,7 +110,8 @@ class Observed:
         # What they are said to be accurate to does not make lines of smooth points, unless they
         # are exact.
         exact = 0.0 if contour.accuracy == 0 else None
-        deviation = noise_level(Contour.trusted(points, closed, exact))
+        measured = Contour.trusted(points, closed, exact)
+        deviation = GOING_ON * pixel_of(measured) or noise_level(measured)
         rounding = rounded(points, closed, LAST_DIGIT * extent)
         is_noisy = deviation > NOISY * max(rounding, LAST_DIGIT * extent)
         if max(deviation, left_by_rounding(points, closed, rounding)) > VISIBLE * rounding:
