@@ -45,7 +45,9 @@ def polygon(*corners):
 SQUARE = polygon((0, 0), (40, 0), (40, 40), (0, 40))
 OCTAGON = polygon(*((20, 0), (50, 0), (70, 20), (70, 50), (50, 70), (20, 70), (0, 50), (0, 20)))
 COMB = polygon(
-    (0, -9), *((x, y) for k in range(0, 80, 2) for x, y in ((k, 0), (k, 5), (k + 1, 5), (k + 1, 0)))
+    (0, -9),
+    *((x, y) for k in range(0, 80, 2) for x, y in ((k, 0), (k, 5), (k + 1, 5), (k + 1, 0))),
+    (79, -9),
 )
 # A shaft with a chamfer of one unit at each of its two steps.
 SHAFT = polygon((0, 0), (90, 0), (90, 12), (61, 12), (60, 11), (31, 11), (30, 10), (0, 10))
@@ -69,20 +71,37 @@ def test_pixels_are_told_wherever_the_border_begins_and_whichever_way_it_runs(na
 CRENELS = polygon(
     (0, -9),
     *((x, y) for k in range(0, 80, 2) for x, y in ((k, 0), (k, 1), (k + 1, 1), (k + 1, 0))),
+    (79, -9),
 )
 
 
 @pytest.mark.parametrize("points", [SQUARE, OCTAGON, COMB, CRENELS, SHAFT], ids=len)
 def test_what_was_drawn_on_pixels_without_stairs_is_no_chain(points):
-    assert pixel_of(Contour(points, closed=True)) == 0.0
+    for first in range(len(points)):
+        assert pixel_of(Contour(np.roll(points, first, axis=0), closed=True)) == 0.0
     assert along_pixels(Contour(turns_of(points), closed=True)) is None
+
+
+def row_of(*steps):
+    """Points of an open row, by how often each step is made."""
+    along = np.concatenate([np.tile(step, (count, 1)) for count, step in steps])
+    return Contour(np.concatenate([[(0.0, 0.0)], np.cumsum(along, axis=0)]), closed=False)
+
+
+def test_three_stairs_of_an_open_row_tell_and_its_ends_are_none():
+    level, up = (30, (1, 0)), (1, (1, 1))
+    assert pixel_of(row_of(level, up, level, up, level, up, level)) == 1.0
+    assert pixel_of(row_of(level, up, level, up, level)) == 0.0
+    # A step at an end turns back nothing.
+    assert pixel_of(row_of(up, level, up, level, up, level)) == 0.0
+    assert pixel_of(row_of(level, up, level, up, level, up)) == 0.0
 
 
 def test_points_that_leave_pixels_out_or_lie_beside_them_are_no_chain():
     chain = border("middles of pixels")
     assert pixel_of(Contour(chain[::2], closed=True)) == 0.0
     assert pixel_of(Contour(np.delete(chain, 100, axis=0), closed=True)) == 0.0
-    shaken = chain + np.random.default_rng(1).uniform(-0.1, 0.1, chain.shape)
+    shaken = chain + np.random.default_rng(1).uniform(-0.04, 0.04, chain.shape)
     assert pixel_of(Contour(shaken, closed=True)) == 0.0
     assert pixel_of(Contour(chain[:2], closed=False)) == 0.0
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
@@ -10,8 +12,12 @@ from tests.support.shapes import flower, shaken
 from checks import distance_to_curve
 from shapespline import Contour, fit_curve
 from shapespline.analysis.resolution import BOX_PARTS, resolution
-from shapespline.engines.least_squares import smooth_start
+from shapespline.engines.least_squares import PENALTY, smooth_start
+from shapespline.fitting import Request, Settings
+from shapespline.fitting.estimate import Estimation, Evidence
+from shapespline.fitting.problem import Problem
 from shapespline.monitor import Monitor
+from shapespline.values import Piece
 
 SEEDS = range(10)
 
@@ -238,3 +244,35 @@ def test_many_scattered_points_need_no_more_control_points():
     for seed in range(3):
         fit = fit_curve(shaken(drop, 0.05, seed))
         assert (len(fit.corners), fit.n_stored_points <= 10) == (1, True)
+
+
+# A pentagon of which nothing repeats.
+PENTAGON = 100.0 * np.array([(0.0, 0.1), (0.55, 0.0), (1.0, 0.42), (0.7, 0.9), (0.12, 0.7)])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_noisy_polygon_that_repeats_nothing_keeps_its_edges(seed):
+    points = Contour(PENTAGON, closed=True).resampled(100).points
+    shaken_ones = points + np.random.default_rng(seed).normal(0, 0.5, points.shape)
+    fit = fit_curve(shaken_ones, closed=True)
+    assert [piece.kind for piece in fit.pieces] == ["line"] * 5
+
+
+@pytest.mark.parametrize("n_chords", [2, 8])
+def test_corners_of_lines_that_do_not_all_turn_clearly_are_paid_for(n_chords):
+    # Half of a disc: chords of its arc turn by 90 or by 22.5 degrees, its ends by more.
+    angle = np.pi * np.arange(n_chords + 1) / n_chords
+    corners = np.column_stack([np.cos(angle), np.sin(angle)])
+    points = Contour(corners, closed=True).resampled(200).points
+    contour = Contour(points + np.random.default_rng(1).normal(0, 0.01, points.shape), closed=True)
+    request = Request.of(contour, True, Settings())
+    estimation = Estimation(Problem(request), Monitor())
+    estimation.__dict__["smooth"] = Evidence(1e9, 0.0, 200)  # dearer than any lines
+    ends = np.concatenate([corners, corners[:1]])
+    knots = np.array([0.0, 0.0, 1.0, 1.0])
+    lines = tuple(Piece("line", 1, knots, np.stack(two)) for two in pairwise(ends))
+    cost = estimation.cost_of(lines, 2 * len(lines), told=False)
+    clear = Evidence.of_pieces(lines, 3, estimation.means, estimation.ordered, len(lines))
+    paid = 0.0 if n_chords == 2 else np.log(200) * len(lines)
+    free = PENALTY * (len(lines) - clear.n_stored_points)
+    assert cost == pytest.approx(clear.cost + paid + free, rel=1e-12)

@@ -12,6 +12,7 @@ from tests.support.promise import checked
 from tests.support.shapes import flower, on_circle
 
 import shapespline as ss
+from shapespline.fitting.drawn import DrawnPieces
 
 GIVEN = [(border, points) for border in BORDERS for points in POINTS]
 
@@ -61,6 +62,21 @@ def test_within_a_tolerance_stairs_are_points_like_others():
     given, _ = chain(dense_of(flower(600).points), points="at turns", pixels=300)
     for tolerance in (0.1, 1.0):
         assert checked(ss.fit_curve(given, closed=True, tolerance=tolerance), tolerance).kept
+
+
+def test_nothing_else_is_asked_of_the_polygon(monkeypatch):
+    asked = []
+    propose = DrawnPieces.propose
+
+    def noted(self, problem, monitor):
+        asked.append(len(problem.contour))
+        return propose(self, problem, monitor)
+
+    monkeypatch.setattr(DrawnPieces, "propose", noted)
+    whole, _ = chain(dense_of(flower(600).points), pixels=300)
+    given, _ = chain(dense_of(flower(600).points), points="at turns", pixels=300)
+    ss.fit_curve(given, closed=True)
+    assert asked == [len(whole)]
 
 
 def test_named_corners_are_kept_by_their_indices():
