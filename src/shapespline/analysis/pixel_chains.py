@@ -62,7 +62,8 @@ def pixel_of(contour: Contour) -> float:
 def along_pixels(contour: Contour) -> Contour | None:
     """A polygon of pixels with those points that are straight between others; None if it is none.
 
-    Programs leave them out. Where none is left out it is no polygon, but a chain.
+    Programs leave them out. Where none is left out it is no polygon, but a chain; where the
+    accuracy is known, as of drawings, it was drawn so.
 
     Examples
     --------
@@ -74,6 +75,8 @@ def along_pixels(contour: Contour) -> Contour | None:
     >>> turns.sum() < len(chain) == len(whole)
     True
     """
+    if contour.accuracy is not None:
+        return None
     points, closed = contour.points, contour.closed
     steps = _steps(points, closed)
     counts = _counts_between_turns(steps, closed)
@@ -86,7 +89,7 @@ def along_pixels(contour: Contour) -> Contour | None:
     _, stairs = _chain(chain, closed)
     if min(stairs.level, stairs.upright) < FEWEST_EACH_WAY:
         return None
-    return Contour.trusted(chain, closed, contour.accuracy)
+    return Contour.trusted(chain, closed)
 
 
 def _steps(points: FloatArray, closed: bool) -> FloatArray:

@@ -133,6 +133,7 @@ def test_an_accuracy_that_is_given_counts_instead():
         contour = Contour(points, closed=True, accuracy=accuracy)
         assert pixel_of(contour) == 0.0
         assert resolution(contour).noise == accuracy
+        assert along_pixels(Contour(turns_of(points), closed=True, accuracy=accuracy)) is None
 
 
 def test_few_points_tell_no_chain():
