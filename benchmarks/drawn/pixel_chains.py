@@ -98,18 +98,10 @@ def off(fit: ss.Fit, outline: Array) -> float:
     return float(((curve - outline[nearest]) * normals[nearest]).sum(axis=1).std())
 
 
-def dense_of(points: Array) -> Array:
-    """A closed polygon at even small steps."""
-    row = np.concatenate([points, points[:1]])
-    stations = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(row, axis=0).T))])
-    at = stations[-1] * np.arange(SAMPLES) / SAMPLES
-    return np.column_stack([np.interp(at, stations, axis) for axis in row.T])
-
-
 def chains_table() -> str:
     """Right fits of plates; stored points of smooth outlines, and how far off they are, pixels."""
     plates = [plate(form, draw, regular=True) for form in FORMS for draw in range(DRAWS)]
-    smooth = [one.contour.points for one in own_corpus() if one.name in ORGANIC]
+    smooth = [one.contour.resampled(SAMPLES).points for one in own_corpus() if one.name in ORGANIC]
     heads = [
         head.format(pixels)
         for pixels in PIXELS
@@ -126,7 +118,7 @@ def chains_table() -> str:
                     fit = fitted(points_of(border_of(mask_of(dense))), None)
                     right += is_outline(fit, outline)
                 for one in smooth:
-                    dense = on_pixels(dense_of(one), pixels, random)
+                    dense = on_pixels(one, pixels, random)
                     fit = fitted(points_of(border_of(mask_of(dense))), None)
                     stored += fit.n_stored_points
                     away.append(off(fit, dense))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.analysis.noise import tells_noise
+from shapespline.analysis.straight_runs import in_parts
 from shapespline.values import Contour
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ def pixel_of(contour: Contour) -> float:
     """
     if contour.accuracy is not None or not tells_noise(contour):
         return 0.0
-    pixel, stairs = _chain(contour.points, contour.closed)
+    pixel, stairs = _chain(contour)
     return pixel if stairs.total >= FEWEST_STAIRS else 0.0
 
 
@@ -77,24 +78,13 @@ def along_pixels(contour: Contour) -> Contour | None:
     """
     if contour.accuracy is not None:
         return None
-    points, closed = contour.points, contour.closed
-    steps = _steps(points, closed)
-    counts = _counts_between_turns(steps, closed)
+    polyline, closed = contour.polyline, contour.closed
+    counts = _counts_between_turns(np.diff(polyline, axis=0), closed)
     if counts is None or counts.sum() > LONGEST_CHAIN:
         return None
-    parts = np.concatenate([np.arange(count) / count for count in counts.tolist()])
-    row = np.repeat(points[: len(steps)], counts, axis=0)
-    row += parts[:, None] * np.repeat(steps, counts, axis=0)
-    chain = row if closed else np.concatenate([row, points[-1:]])
-    _, stairs = _chain(chain, closed)
-    if min(stairs.level, stairs.upright) < FEWEST_EACH_WAY:
-        return None
-    return Contour.trusted(chain, closed)
-
-
-def _steps(points: FloatArray, closed: bool) -> FloatArray:
-    row = np.concatenate([points, points[:1]]) if closed else points
-    return np.asarray(np.diff(row, axis=0))
+    chain = Contour.trusted(in_parts(polyline, counts, closed), closed)
+    _, stairs = _chain(chain)
+    return chain if min(stairs.level, stairs.upright) >= FEWEST_EACH_WAY else None
 
 
 def _whole(steps: FloatArray, grid: float) -> IntArray | None:
@@ -128,15 +118,15 @@ def _counts_between_turns(steps: FloatArray, closed: bool) -> IntArray | None:
     return counts
 
 
-def _chain(points: FloatArray, closed: bool) -> tuple[float, _Stairs]:
+def _chain(contour: Contour) -> tuple[float, _Stairs]:
     """Side of the pixels that points go along one by one, and the stairs."""
-    if _halves(_steps(points[: FIRST_STEPS + 1], closed=False))[1] is None:
+    if _halves(np.diff(contour.points[: FIRST_STEPS + 1], axis=0))[1] is None:
         return 0.0, NO_STAIRS
-    pixel, halves = _halves(_steps(points, closed))
+    pixel, halves = _halves(np.diff(contour.polyline, axis=0))
     if halves is not None and not (halves % 2).any():
-        return pixel, _stairs_of(halves, closed, between=False)
+        return pixel, _stairs_of(halves, contour.closed, between=False)
     if halves is not None and (np.abs(halves).sum(axis=1) == 2).all():
-        return pixel, _stairs_of(halves, closed, between=True)
+        return pixel, _stairs_of(halves, contour.closed, between=True)
     return pixel, NO_STAIRS
 
 

@@ -49,7 +49,7 @@ def filled(contour: Contour) -> Contour:
     parts = np.where(steps > LONG_EDGE * median(steps), 2 * FEWEST_STRAIGHT, 1)
     if (parts == 1).all():
         return contour
-    points = _cut(polyline, parts, contour.closed)
+    points = in_parts(polyline, parts, contour.closed)
     return Contour.trusted(points, contour.closed, contour.accuracy)
 
 
@@ -76,11 +76,18 @@ def with_points_on_lines(points: FloatArray, closed: bool) -> FloatArray:
         sharp[0] = True
     at_begin = sharp | (LONGER * np.roll(steps, 1) < steps)
     at_end = np.roll(sharp, -1) | (LONGER * np.roll(steps, -1) < steps)
-    return _cut(polyline, np.where(long & at_begin & at_end, PARTS, 1), closed)
+    return in_parts(polyline, np.where(long & at_begin & at_end, PARTS, 1), closed)
 
 
-def _cut(polyline: FloatArray, parts: IntArray, closed: bool) -> FloatArray:
-    """The points of a polyline with each of its edges in so many equal parts."""
+def in_parts(polyline: FloatArray, parts: IntArray, closed: bool) -> FloatArray:
+    """The points of a polyline with each of its edges in so many equal parts.
+
+    Examples
+    --------
+    >>> corner = np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 3.0)])
+    >>> in_parts(corner, np.array([2, 1]), closed=False).tolist()
+    [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 3.0]]
+    """
     begins = np.repeat(np.arange(len(parts)), parts)
     share = np.concatenate([np.arange(count) / count for count in parts.tolist()])
     points = polyline[begins] + share[:, None] * np.diff(polyline, axis=0)[begins]

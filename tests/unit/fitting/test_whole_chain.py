@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from benchmarks.drawn.few_points import is_outline
-from benchmarks.drawn.pixel_chains import BORDERS, POINTS, dense_of, mask_of, off, on_pixels
+from benchmarks.drawn.pixel_chains import BORDERS, POINTS, mask_of, off, on_pixels
 from benchmarks.drawn.random_plates import STEP, plate
 from benchmarks.drawn.truth import sampled
 from tests.support.promise import checked
@@ -14,6 +16,12 @@ from tests.support.shapes import flower, on_circle
 import shapespline as ss
 from shapespline.fitting.drawn import DrawnPieces
 
+FLOWER = flower(6000).points
+# Of which nothing repeats.
+PENTAGON = np.array([(0.0, 0.1), (0.55, 0.0), (1.0, 0.42), (0.7, 0.9), (0.12, 0.7)])
+PENTAGON = np.concatenate(
+    [np.linspace(a, b, 1000, endpoint=False) for a, b in pairwise([*PENTAGON, PENTAGON[0]])]
+)
 GIVEN = [(border, points) for border in BORDERS for points in POINTS]
 
 
@@ -35,7 +43,7 @@ def test_plates_come_back_from_their_masks(border, points, draw):
 
 @pytest.mark.parametrize(("border", "points"), GIVEN)
 def test_smooth_outlines_do_not_follow_stairs(border, points):
-    given, placed = chain(dense_of(flower(600).points), border, points, pixels=300)
+    given, placed = chain(FLOWER, border, points, pixels=300)
     fit = ss.fit_curve(given, closed=True)
     # Stairs alone are off by 0.29 pixels.
     assert off(fit, placed) < 0.2
@@ -43,7 +51,7 @@ def test_smooth_outlines_do_not_follow_stairs(border, points):
 
 
 def test_circles_are_circles():
-    given, placed = chain(dense_of(on_circle(400)))
+    given, placed = chain(on_circle(4000))
     (piece,) = ss.fit_curve(given, closed=True).pieces
     assert piece.arc is not None
     # Their pixels' middles lie inside, by half a pixel in the mean.
@@ -52,14 +60,13 @@ def test_circles_are_circles():
 
 @pytest.mark.parametrize("size", [100, 150, 400])
 def test_a_polygon_that_repeats_nothing_has_its_edges(size):
-    corners = np.array([(0.0, 0.1), (0.55, 0.0), (1.0, 0.42), (0.7, 0.9), (0.12, 0.7)])
-    given, _ = chain(dense_of(corners), pixels=size)
+    given, _ = chain(PENTAGON, pixels=size)
     fit = ss.fit_curve(given, closed=True)
     assert [piece.kind for piece in fit.pieces] == ["line"] * 5
 
 
 def test_within_a_tolerance_stairs_are_points_like_others():
-    given, _ = chain(dense_of(flower(600).points), points="at turns", pixels=300)
+    given, _ = chain(FLOWER, points="at turns", pixels=300)
     for tolerance in (0.1, 1.0):
         assert checked(ss.fit_curve(given, closed=True, tolerance=tolerance), tolerance).kept
 
@@ -73,13 +80,16 @@ def test_nothing_else_is_asked_of_the_polygon(monkeypatch):
         return propose(self, problem, monitor)
 
     monkeypatch.setattr(DrawnPieces, "propose", noted)
-    whole, _ = chain(dense_of(flower(600).points), pixels=300)
-    given, _ = chain(dense_of(flower(600).points), points="at turns", pixels=300)
+    whole, _ = chain(FLOWER, pixels=300)
+    given, _ = chain(FLOWER, points="at turns", pixels=300)
     ss.fit_curve(given, closed=True)
     assert asked == [len(whole)]
 
 
-def test_named_corners_are_kept_by_their_indices():
-    given, _ = chain(dense_of(flower(600).points), points="at turns", pixels=300)
-    fit = ss.fit_curve(given, closed=True, corners=[0, 9])
-    assert set(fit.corners.tolist()) <= {0, 9}
+def test_named_corners_are_those_of_the_points_that_were_given():
+    given, placed = chain(PENTAGON, points="at turns")
+    corners = placed[:: len(placed) // 5]
+    named = [int(np.hypot(*(given - corner).T).argmin()) for corner in corners]
+    fit = ss.fit_curve(given, closed=True, corners=sorted(named))
+    sharp = fit.curve(fit.corners)
+    assert all(np.hypot(*(sharp - given[k]).T).min() < 2.0 for k in named)  # pixels
