@@ -19,11 +19,11 @@ from shapespline.engines.drawn import (
 )
 from shapespline.engines.pieces import MirroredHalf
 from shapespline.fitting.choose import DRAWN, FEW_DRAWN
-from shapespline.fitting.estimate import DRAWN_DEARER, Estimation, turns_of
+from shapespline.fitting.estimate import DRAWN_DEARER, Estimation
 from shapespline.fitting.measured_runs import MeasuredRuns
 from shapespline.fitting.problem import Problem
 from shapespline.fitting.verify import Candidate
-from shapespline.geometry import joined, two_sided_distance
+from shapespline.geometry import joined, turns_of, two_sided_distance
 from shapespline.validation import median
 from shapespline.values import CORNER_TURN, Contour, Piece
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -36,7 +35,12 @@ from shapespline.engines.least_squares import (
     smooth_start,
     start_of,
 )
-from shapespline.engines.pieces import PIECE_DEGREE, fit_observed, pinned_exactly
+from shapespline.engines.pieces import (
+    PIECE_DEGREE,
+    drawn_with_lines,
+    fit_observed,
+    pinned_exactly,
+)
 from shapespline.errors import DegenerateContourError
 from shapespline.fitting.goals import Estimate
 from shapespline.fitting.means import Means
@@ -44,7 +48,7 @@ from shapespline.fitting.runs import KeptCorners, Runs
 from shapespline.fitting.settings import DEFAULT_METHOD
 from shapespline.fitting.strategies import measured_candidate, summed
 from shapespline.fitting.verify import Candidate
-from shapespline.geometry import joined, reversed_curve, turn_between, two_sided_distance
+from shapespline.geometry import joined, reversed_curve, turns_of, two_sided_distance
 from shapespline.values import CORNER_TURN, Contour
 
 if TYPE_CHECKING:
@@ -113,12 +117,6 @@ class Evidence(NamedTuple):
         sharp = [abs(turn) > CORNER_TURN for turn in turns_of(pieces, closed=contour.closed)]
         price = PENALTY * stored + np.log(len(contour)) * max(0, sum(sharp) - n_proven)
         return cls(misfit + price, found.hausdorff_distance, stored, n_proven)
-
-
-def turns_of(pieces: tuple[Piece, ...], *, closed: bool) -> list[float]:
-    """Angles at the joints, radians."""
-    around = [*pieces, *(pieces[:1] if closed else ())]
-    return [turn_between(before, after) for before, after in pairwise(around)]
 
 
 class Estimation:
@@ -217,7 +215,9 @@ class Estimation:
         # Without them every piece is one of three kinds, too, which costs log 3.
         joints, dearer = self._n_clear_corners(pieces), DRAWN_DEARER
         if not told:
-            joints = joints if self._is_polygon(pieces, joints) else 0
+            # No smooth outline is told by lines alone that meet in clear corners (DRA-60).
+            are_lines = all(piece.kind == "line" for piece in pieces)
+            joints *= are_lines and drawn_with_lines(pieces, self.ordered.closed)
             dearer = -float(np.log(3)) * len(pieces)
         said = Evidence.of_pieces(pieces, self._degree, self.means, self.ordered, joints)
         free = n_unknowns + (0 if self.ordered.closed else 2)
@@ -228,11 +228,6 @@ class Estimation:
         """Corners that turn as much as those of data do."""
         turns = turns_of(pieces, closed=self.ordered.closed)
         return sum(abs(turn) >= LEAST_TURN for turn in turns)
-
-    def _is_polygon(self, pieces: tuple[Piece, ...], n_corners: int) -> bool:
-        """Whether lines alone meet in clear corners: no smooth outline is told so."""
-        n_joints = len(pieces) - (not self.ordered.closed)
-        return n_corners == n_joints and all(piece.kind == "line" for piece in pieces)
 
     def explains(self, evidence: Evidence) -> bool:
         """Whether a curve comes near all points."""

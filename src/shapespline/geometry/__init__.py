@@ -15,7 +15,7 @@ from shapespline.geometry.exact import Outlines, exact_drawing, exact_fit
 from shapespline.geometry.flattening import chords, sampled
 from shapespline.geometry.hooks import chords_for_hooks, hooks
 from shapespline.geometry.intersections import crossing_pairs, self_crossings
-from shapespline.geometry.joining import elevated, joined, turn_between
+from shapespline.geometry.joining import elevated, joined, turn_between, turns_of
 from shapespline.geometry.lines_and_arcs import bulge_piece, bulged, lines_and_arcs
 from shapespline.geometry.measures import Box, bounds, contains, enclosed_area, evenly_spaced
 from shapespline.geometry.moving import (
@@ -105,6 +105,7 @@ __all__ = [
     "transformed_drawing",
     "transformed_fit",
     "turn_between",
+    "turns_of",
     "two_sided_distance",
     "unit_normals",
 ]

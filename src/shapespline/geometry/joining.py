@@ -43,6 +43,20 @@ def turn_between(before: Piece, after: Piece) -> float:
     return _turn(_way(before.control_points[-2:].tolist()), _way(after.control_points[:2].tolist()))
 
 
+def turns_of(pieces: Sequence[Piece], closed: bool) -> list[float]:
+    """Signed turns between neighbours, radians; of a closed curve that at the seam comes first.
+
+    Examples
+    --------
+    >>> from shapespline import fit_curve
+    >>> square = fit_curve([(0, 0), (1, 0), (1, 1), (0, 1)], closed=True, tolerance=0.01)
+    >>> np.abs(np.degrees(turns_of(square.pieces, closed=True))).round(6).tolist()
+    [90.0, 90.0, 90.0, 90.0]
+    """
+    seam = [(pieces[-1], pieces[0])] if closed and pieces else []
+    return [turn_between(before, after) for before, after in (*seam, *pairwise(pieces))]
+
+
 class _Polygon(NamedTuple):
     """Of a piece's control polygon its length and its first and last way between two points.
 

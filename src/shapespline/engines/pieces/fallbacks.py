@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -10,12 +9,12 @@ import numpy as np
 from shapespline import _kernels
 from shapespline.analysis import FEWEST_STRAIGHT, LEAST_TURN, STRAIGHT_PART
 from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, without_degenerate
-from shapespline.geometry import PointsByX, turn_between
+from shapespline.geometry import PointsByX, turns_of
 from shapespline.monitor import Monitor
 from shapespline.values import Piece
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     from shapespline.engines.pieces.problem import PiecesProblem
     from shapespline.values import Contour
@@ -66,14 +65,6 @@ def through_all(contour: Contour) -> tuple[Piece, ...]:
     return without_degenerate(lines)
 
 
-def turns_of(pieces: Sequence[Piece], closed: bool) -> Iterator[float]:
-    """Signed turns between neighbours, radians; of a closed curve that at the seam comes first."""
-    if closed and pieces:
-        yield turn_between(pieces[-1], pieces[0])
-    for before, after in pairwise(pieces):
-        yield turn_between(before, after)
-
-
 def drawn_with_lines(lines: Sequence[Piece], closed: bool) -> bool:
     """Whether lines meet in corners everywhere, not in the facets of a curve."""
     return min(map(abs, turns_of(lines, closed)), default=np.pi) >= LEAST_TURN
@@ -83,7 +74,7 @@ def in_facets(pieces: Sequence[Piece], closed: bool) -> bool:
     """Whether lines stand for a curve: many of the joints between them turn less than corners."""
     if any(piece.degree > 1 for piece in pieces):
         return False
-    turns = np.abs(list(turns_of(pieces, closed)))
+    turns = np.abs(turns_of(pieces, closed))
     n_low = np.count_nonzero(turns < LEAST_TURN)
     return bool(len(turns) and n_low >= FACETS_PART * len(turns))
 
