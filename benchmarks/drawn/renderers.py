@@ -108,6 +108,13 @@ def tinted(outlines: Sequence[Outline], size: int) -> Picture:
     return np.rint(paper + ink * (np.array(INKS[0]) - paper)).astype(np.uint8)
 
 
+def printed_scanned(outlines: Sequence[Outline], size: int) -> Picture:
+    """Such a print, badly scanned: spread by 1.2 pixels, grain of 12 in each colour, JPEG."""
+    picture = gaussian_filter(printed(outlines, size).astype(float), (1.2, 1.2, 0.0))
+    grain = np.random.default_rng(2).normal(0.0, 12.0, picture.shape)
+    return jpeg(np.rint(np.clip(picture + grain, 0, 255)).astype(np.uint8))
+
+
 def photographed(outlines: Sequence[Outline], size: int) -> Picture:
     """Such a print: out of focus by a pixel, darker towards its corners, grain, JPEG."""
     picture = gaussian_filter(printed(outlines, size).astype(float), (1.0, 1.0, 0.0))
@@ -254,5 +261,6 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     ),
     f"{CUT}, tinted": tinted,
     "printed": printed,
+    "printed, badly scanned": printed_scanned,
     "photographed": photographed,
 }

@@ -149,7 +149,7 @@ def pictures_tables() -> Tables:
     rows = [(one, names_of(*both), None, "drawn", one) for one in RENDERERS]
     rows += [
         (f"{one}, in colours", names_of(*both), None, IN_COLOURS, one)
-        for one in (f"{CUT}, tinted", "printed", "photographed")
+        for one in (f"{CUT}, tinted", "printed", "printed, badly scanned", "photographed")
     ]
     tables.add(f"Plates and icons, {SIZE} pixels, drawn, renderers", rows, SIZE)
     rows = [(one, names_of(*both), WITHIN, "drawn", one) for one in RENDERERS if one != EXACT]
