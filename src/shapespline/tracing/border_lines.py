@@ -14,6 +14,7 @@ import numpy as np
 from shapespline.tracing.borders import OUTSIDE
 from shapespline.tracing.corners import missing_around, put_back
 from shapespline.tracing.coverage import border_coverage
+from shapespline.tracing.grain import CHORD, averaged, squarely
 from shapespline.tracing.lines import DRAWN_ACCURACY, MOST, Line
 
 if TYPE_CHECKING:
@@ -43,9 +44,12 @@ def drawn_borders(seen: Seen, found: Bordering) -> list[Line]:
     soft = seen.soft
     for arc in found.arcs:
         path = np.array(arc.path[:-1] if arc.is_ring else arc.path)
-        lines.append(found.places.drawn[path])
+        line = found.places.drawn[path]
         levels.append(found.places.level[path])
         at_rim = OUTSIDE in (arc.left, arc.right)
+        if soft.grainy and not at_rim:
+            line = _averaged(line, path, soft.scattered_by(_noise(seen, arc)), found, arc)
+        lines.append(line)
         known = at_rim or bool(found.places.known[path].mean() > MOST)
         certain.append(not at_rim and (known or soft.shows_corners(_noise(seen, arc))))
         accuracies.append(DRAWN_ACCURACY if known else soft.accuracy)
@@ -58,6 +62,20 @@ def drawn_borders(seen: Seen, found: Bordering) -> list[Line]:
 
     points = put_back(lines, levels, certain, closed, fit, soft)
     return [Line(*line) for line in zip(points, levels, accuracies, strict=True)]
+
+
+def _averaged(
+    line: FloatArray, path: IntArray, scatter: float, found: Bordering, arc: Arc
+) -> FloatArray:
+    """Without most of its noise; junctions, and the ends of what is open, stay."""
+    nodes = found.borders.nodes
+    stay = path >= len(nodes.row)
+    upright = nodes.upright[np.where(stay, 0, path)]
+    used = squarely(line, upright) | stay
+    if not arc.is_ring:
+        used[:CHORD] = used[-CHORD:] = True
+        stay[[0, -1]] = True
+    return averaged(line[used], scatter, stay[used])
 
 
 def _noise(seen: Seen, arc: Arc) -> float:

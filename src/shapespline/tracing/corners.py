@@ -73,6 +73,10 @@ TOGETHER = 10_000
 FROM = (*((disturbed, SIDE) for disturbed in DISTURBED), (DISTURBED[0], SHORT_SIDE))
 # At last those that resampling lets them be, but among ripples (TRC-43).
 LOOKS = (*((look, False) for look in FROM), *((look, True) for look in FROM[:3]))
+# Under grain sides tell a corner better the longer they are; such ones scatter by this part of what
+# a point alone does, so that arcs on them are told from lines (TRC-44).
+LONG_SIDE, LONG_SCATTERS = 24.0, 0.25
+LONG_LOOK = ((DISTURBED[0], LONG_SIDE), False)
 # Shorter outlines have no sides that show undisturbed.
 SHORTEST_OUTLINE = 16.0
 
@@ -147,11 +151,14 @@ def put_back(
     ways = Ways([lines[k] for k in chosen], [closed[k] for k in chosen])
     turns = turns_of(ways, soft)
     corners = NONE
-    for (disturbed, side), resampled in LOOKS[: len(FROM)] if soft.rippled else LOOKS:
+    looks = LOOKS[: len(FROM)] if soft.rippled else LOOKS
+    if soft.grainy:
+        looks = (LONG_LOOK, *looks)
+    for (disturbed, side), resampled in looks:
         seen = soft._replace(resampled=resampled)
         blur = max(soft.blur, SOFTENED) if resampled else soft.blur
         most = np.array(CUT_OFF) + blur * np.array(CUT_OFF_BLURRED)
-        found = meetings(ways, turns, disturbed, side, soft)
+        found = meetings(ways, turns, disturbed, side, _left(soft, side))
         found = found._replace(own=used[found.own])
         far = _distances(found.points, found.own, level_lines, closed)
         cut_off = np.interp(np.degrees(np.pi - found.turns), ANGLES, most)
@@ -161,6 +168,11 @@ def put_back(
         if len(corners.points) == len(turns.own):
             break
     return with_corners(lines, corners, closed)
+
+
+def _left(soft: Softness, side: float) -> Softness:
+    """A picture as soft as sides of a length are."""
+    return soft._replace(scatter=LONG_SCATTERS * soft.scatter) if side == LONG_SIDE else soft
 
 
 def _away(found: Corners, corners: Corners) -> BoolArray:

@@ -44,6 +44,7 @@ def inks_of(field: Field, part: Crossings, lengths: Sequence[int]) -> FloatArray
     even &= (profiles > 0.5).all(axis=1)  # of a thin stroke they are ground
     most = profiles.max(axis=1)
     shown, middles = np.full(len(lengths), np.nan), np.empty(len(lengths))
+    uncertain = np.ones(len(lengths))
     begin = 0
     for k, length in enumerate(lengths):
         own = slice(begin, begin + length)
@@ -51,13 +52,14 @@ def inks_of(field: Field, part: Crossings, lengths: Sequence[int]) -> FloatArray
         middles[k] = np.median(most[own])
         if even[own].sum() >= max(1.0, SHOWN * length):
             shown[k] = np.median(inner[own][even[own]])
+            uncertain[k] = even[own].sum() ** -0.5
     told = ~np.isnan(shown)
     if not told.any():
         return np.ones(len(lengths))
     known = np.sort(shown[told])
     least = known[np.minimum(np.searchsorted(known, middles - DIFFERENT), len(known) - 1)]
     found = np.where(told, shown, least)
-    other = np.abs(found - 1.0) > DIFFERENT + EVEN_NOISE * field.noise
+    other = np.abs(found - 1.0) > DIFFERENT + EVEN_NOISE * field.noise * uncertain
     return np.where(other, found, 1.0)
 
 

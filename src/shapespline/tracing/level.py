@@ -34,6 +34,8 @@ EVEN_PART, FARTHEST_PART = 0.02, 0.02
 # Even parts that differ from a colour by more than this part of the full scale have another; what
 # differs by more than this is not of the colour, whatever others there are.
 OTHER, FARTHEST = 0.04, 0.2
+# Where grain leaves none, neighbours that differ by so many of its deviations are even (TRC-45).
+EVEN_NOISE = 4.0
 # Pixels that tell the values of ink and ground.
 EVEN_SAMPLE = 4_000_000
 # Pixels that tell the noise well enough; what an edge is among them, of the contrast; how many have
@@ -92,7 +94,7 @@ def picture_level(values: Layer, level: float | None = None) -> Level:
     histogram = _histogram(values)
     if level is None:
         split = otsu_split(histogram.counts, histogram.centres)
-        dark, light = _classes(histogram, split)
+        dark, light = _classes(values, histogram, split)
         cut = 0.5 * (dark + light)
     else:
         cut = float(level)
@@ -106,7 +108,8 @@ def picture_level(values: Layer, level: float | None = None) -> Level:
             " choose a level in between, or none"
         )
     if level is not None:
-        dark, light = _classes(histogram, int(np.searchsorted(histogram.centres, cut)))
+        split = int(np.searchsorted(histogram.centres, cut))
+        dark, light = _classes(values, histogram, split)
     return Level(cut, dark, light)
 
 
@@ -187,17 +190,21 @@ def halfway_to_other(values: Layer, full: float) -> float | None:
     return min(0.5 * float(least), FARTHEST * full)
 
 
-def _histogram(values: Layer) -> _Histogram:
-    """How often each value occurs, and how often on even pixels, of a sample of rows."""
+def _histogram(values: Layer, near: float | None = None) -> _Histogram:
+    """How often each value occurs, and how often on even pixels, of a sample of rows.
+
+    Even pixels differ by no more than ``near`` from their neighbours.
+    """
     rows = np.arange(1, values.shape[0] - 1, values.size // EVEN_SAMPLE + 1)
     counts, (lowest, highest) = values.counts, values.range
+    near = EVEN * (highest - lowest) if near is None else near
     middle = values[rows]
     if values.is_whole:
         centres = np.arange(len(counts), dtype=np.float64)
-        even = middle[_even(values, rows, int(EVEN * (highest - lowest)))]
+        even = middle[_even(values, rows, int(near))]
         return _Histogram(counts, np.bincount(even, minlength=len(counts)), centres)
     edges = values.bins
-    even = middle[_even(values, rows, EVEN * (highest - lowest))]
+    even = middle[_even(values, rows, near)]
     return _Histogram(counts, np.histogram(even, edges)[0], 0.5 * (edges[1:] + edges[:-1]))
 
 
@@ -232,21 +239,35 @@ def otsu_split(counts: IntArray, centres: FloatArray) -> int:
     return int(np.argmax(n_below * (n_above * distance**2))) + 1
 
 
-def _classes(histogram: _Histogram, split: int) -> tuple[float, float]:
+def _classes(values: Layer, histogram: _Histogram, split: int) -> tuple[float, float]:
     """Values of the classes below a bin and from it on."""
-    dark = _class_value(histogram, slice(None, split), FARTHEST_PART)
-    light = _class_value(histogram, slice(split, None), 1 - FARTHEST_PART)
+    below, above = slice(None, split), slice(split, None)
+    if not (_has_even(histogram, below) and _has_even(histogram, above)):
+        # Grain hides what is even, or strokes are thin.
+        lowest, highest = values.range
+        contrast = _class_value(histogram, above, 1 - FARTHEST_PART) - _class_value(
+            histogram, below, FARTHEST_PART
+        )
+        near = EVEN_NOISE * noise_deviation(values, contrast)
+        if near > EVEN * (highest - lowest):
+            histogram = _histogram(values, near)
+    dark = _class_value(histogram, below, FARTHEST_PART)
+    light = _class_value(histogram, above, 1 - FARTHEST_PART)
     return dark, light
+
+
+def _has_even(histogram: _Histogram, bins: slice) -> bool:
+    """Whether a class has even parts to speak of."""
+    counts, even = histogram.counts[bins].sum(), histogram.even[bins].sum()
+    return bool(even >= max(1, EVEN_PART * counts))
 
 
 def _class_value(histogram: _Histogram, bins: slice, farthest: float) -> float:
     """Median of the even pixels of a class; of a class without, a quantile of all."""
-    counts, even, centres = (column[bins] for column in histogram)
-    part = 0.5
-    if even.sum() >= max(1, EVEN_PART * counts.sum()):
-        counts = even
-    else:
-        part = farthest
+    even = _has_even(histogram, bins)
+    counts = (histogram.even if even else histogram.counts)[bins]
+    part = 0.5 if even else farthest
+    centres = histogram.centres[bins]
     cumulative = np.cumsum(counts)
     # Of an even number the mean of the two in the middle: inverted pictures are traced alike.
     places = [

@@ -10,6 +10,7 @@ from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
 from shapespline.tracing.dots import dotted
 from shapespline.tracing.edges import NOISIEST, drawn_shares, level_shares, no_edges
+from shapespline.tracing.grain import averaged, squarely
 from shapespline.tracing.inks import inks_of, moved_to_own
 from shapespline.tracing.roundings import rounded
 from shapespline.tracing.softness import Softness
@@ -84,7 +85,11 @@ def drawn_lines(
         if one_bit:
             accuracy = ONE_BIT_ACCURACY
         points = places_drawn[own]
-        if len(loop) >= FEW_POINTS and (accuracy == drawn or (soft.on_level and ink != 1.0)):
+        if soft.grainy and not one_bit:
+            told = squarely(points, upright) | ~inner
+            points = averaged(points[told], soft.scatter / ink, ~inner[told])
+            points = np.clip(points, 0, (width, height))
+        elif len(loop) >= FEW_POINTS and (accuracy == drawn or (soft.on_level and ink != 1.0)):
             told = (across >= LEAST_ACROSS) | ~inner
             points = _bent(points[told], part.upright[own][told], edges.known[own][told])
             points = np.clip(points, 0, (width, height))

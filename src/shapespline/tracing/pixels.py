@@ -9,6 +9,7 @@ import numpy as np
 
 from shapespline.errors import InvalidInputError
 from shapespline.tracing.layer import Layer, strips
+from shapespline.tracing.level import noise_deviation
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,6 +29,8 @@ CHANNELS = ("auto", "grey", "red", "green", "blue", "alpha", "difference")
 LUMA = (0.299, 0.587, 0.114)
 # Lightness tells colours apart that differ in it by so much of what they differ by (TRC-21).
 STRONG = 0.6
+# Median of the mean square of three normal variables, of their variance (TRC-45).
+GROUND_NOISE = 0.789
 # Width of the rim that shows the background, as a part of the shorter side: wider than the thin
 # frames that programs draw around pictures.
 RIM = 0.02
@@ -115,11 +118,12 @@ def colour_distance(pixels: NDArray[Any], color: str) -> Layer:
     """
     layers = _layers_of(pixels)
     wanted = _colour(color, pixels)
+    noise = _noise_squared(pixels)
 
     def distance(part: NDArray[Any]) -> FloatArray:
         found = layers(part)
         squares = sum((found[k % len(found)] - wanted[k]) ** 2 for k in range(3))
-        return cast("FloatArray", np.sqrt(squares / 3))
+        return _without(noise, squares / 3)
 
     return Layer(pixels, distance)
 
@@ -293,6 +297,7 @@ def _difference(pixels: NDArray[Any]) -> Layer:
     """
     layers_of = _layers_of(pixels)
     ground = [float(np.median(layer)) for layer in layers_of(shows_ground(pixels)(pixels))]
+    noise = _noise_squared(pixels)
 
     if pixels.dtype == np.uint8:  # squares are looked up: half the time
         tables = [(np.arange(256.0) - one) ** 2 for one in ground]
@@ -305,9 +310,26 @@ def _difference(pixels: NDArray[Any]) -> Layer:
                 squares += table[layer]
         else:
             squares = sum((layer - one) ** 2 for layer, one in zip(layers, ground, strict=True))
-        return cast("FloatArray", np.sqrt(squares / len(ground)))
+        return _without(noise, squares / len(ground))
 
     return Layer(pixels, difference)
+
+
+def _noise_squared(pixels: NDArray[Any]) -> float:
+    """What noise alone has for a mean square difference, in the median over pixels."""
+    layers_of, full = _layers_of(pixels), full_scale(pixels)
+
+    def variance(k: int) -> float:
+        return noise_deviation(Layer(pixels, lambda part: layers_of(part)[k]), full) ** 2
+
+    count = len(layers_of(pixels[:1]))
+    return GROUND_NOISE * sum(variance(k) for k in range(count)) / count
+
+
+def _without(noise: float, squares: FloatArray) -> FloatArray:
+    """Roots of mean squares less what noise adds to them: the ground is nothing in the median."""
+    left = squares - noise
+    return cast("FloatArray", np.copysign(np.sqrt(np.abs(left)), left))
 
 
 def shows_ground(pixels: NDArray[Any]) -> Callable[[NDArray[Any] | Layer], NDArray[Any]]:

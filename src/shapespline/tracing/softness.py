@@ -39,8 +39,9 @@ SOFT, SCATTERED = 0.75, 0.01
 # known; of such straight ones. Noise has no bound as other errors of pictures have: it is allowed
 # four deviations, those three (TRC-20).
 LEVEL_ACCURACY, SOFT_ACCURACY, UNBOUNDED = 0.07, 0.04, 4 / 3
-# In more noise than this, of the contrast, ink tells no corner from a rounding (TRC-20).
-NOISIEST_CORNER = 0.065
+# In more noise than this, of the contrast, ink tells no corner from a rounding (TRC-20); where
+# outlines are averaged in more than this (TRC-44).
+NOISIEST_CORNER, NOISIEST_AVERAGED = 0.065, 0.13
 # Where more than this part of the outermost pixels are off the usual ground and ink by these parts
 # of the contrast, edges have ripples beside them, as JPEG lets them: those that a renderer draws
 # have not (TRC-37).
@@ -107,20 +108,30 @@ class Softness(NamedTuple):
         rippled = not blur and _is_rippled(profiles)
         if blur is None:
             return cls(0.0, SCATTER * step**0.5, rippled, step)
-        # What noise is over the slope of an edge.
-        slope = 1.0 / np.sqrt(2 * np.pi * (blur**2 + WITHIN_PIXEL))
-        scatter = noise * float(np.sqrt(BETWEEN_PIXELS) / slope)
+        scatter = cls(blur).scattered_by(noise)
         return cls(blur, max(scatter, SCATTER * step**0.5), rippled, step)
+
+    def scattered_by(self, noise: float) -> float:
+        """How noise of the contrast scatters a level line: over the slope of an edge, pixels."""
+        slope = 1.0 / np.sqrt(2 * np.pi * (self.blur**2 + WITHIN_PIXEL))
+        return noise * float(np.sqrt(BETWEEN_PIXELS) / slope)
 
     @property
     def on_level(self) -> bool:
         """Whether level lines tell more than what is summed across edges."""
-        return self.blur >= SOFT or (self.blur > 0 and self.scatter >= SCATTERED)
+        return self.blur >= SOFT or self.grainy
+
+    @property
+    def grainy(self) -> bool:
+        """Whether noise scatters level lines by so much that they are averaged."""
+        return self.blur > 0 and self.scatter >= SCATTERED
 
     @property
     def accuracy(self) -> float:
         """Of level lines, pixels."""
-        return max(SOFT_ACCURACY if self.on_level else LEVEL_ACCURACY, UNBOUNDED * self.scatter)
+        # Averaged ones are nearer, but what is left goes on along them (TRC-44).
+        scatter = self.scatter if self.grainy else UNBOUNDED * self.scatter
+        return max(SOFT_ACCURACY if self.on_level else LEVEL_ACCURACY, scatter)
 
     @property
     def coarseness(self) -> float:
@@ -130,7 +141,8 @@ class Softness(NamedTuple):
     def shows_corners(self, noise: float) -> bool:
         """Whether corners of level lines are told from roundings, in noise of the contrast."""
         left = self.on_level or noise > NOISIEST
-        return left and self.scatter > 0 and noise <= NOISIEST_CORNER
+        noisiest = NOISIEST_AVERAGED if self.grainy else NOISIEST_CORNER
+        return left and self.scatter > 0 and noise <= noisiest
 
 
 # Edges as a renderer draws them.

@@ -11,8 +11,10 @@ from scipy.ndimage import gaussian_filter
 
 from shapespline.errors import DegenerateContourError, InvalidInputError
 from shapespline.tracing import trace
-from shapespline.tracing.level import otsu_split
+from shapespline.tracing.layer import Layer
+from shapespline.tracing.level import otsu_split, picture_level
 from shapespline.tracing.outlines import nesting
+from shapespline.tracing.pixels import pixel_values
 from shapespline.values.view_box import ViewBox
 
 LEAST_SPACING = 1e-3  # pixels; closer points are merged
@@ -303,3 +305,31 @@ def test_corners_that_meet_in_noise_are_no_warning():
     blots = gaussian_filter(rng.normal(size=(height, width)), rng.uniform(0.5, 4))
     image = np.clip(127 + rng.uniform(20, 900) * blots / blots.std(), 0, 255)
     assert len(trace(np.rint(image).astype(np.uint8))) > 0
+
+
+@pytest.mark.parametrize("grain", [4.0, 12.0, 20.0, 26.0])
+def test_ink_and_ground_are_known_among_grain(grain):
+    """Grain that black cuts off leaves nothing even; ink and ground are no farthest values."""
+    truth = np.full((200, 200), 224.0)
+    truth[40:160, 40:160] = 20.0
+    noisy = truth + np.random.default_rng(5).normal(0.0, grain, truth.shape)
+    found = picture_level(Layer(np.rint(np.clip(noisy, 0, 255)).astype(np.uint8)))
+    # Medians of some thousand pixels, whole numbers; even pixels of what is cut off are lighter.
+    assert found.light == pytest.approx(224.0, abs=0.15 * grain)
+    assert found.dark == pytest.approx(20.0, abs=0.15 * grain)
+
+
+def test_a_coloured_ground_under_grain_is_nothing():
+    """The norm of what noise alone differs by is taken off."""
+    paper, ink = np.array([245.0, 240.0, 225.0]) - 40, np.array([190.0, 40.0, 50.0])
+    inside = np.hypot(*(np.mgrid[:160, :160] - 80.0)) <= 50
+    noise = np.random.default_rng(6).normal(0.0, 10.0, (160, 160, 3))
+    picture = np.rint(np.where(inside[..., None], ink, paper) + noise).astype(np.uint8)
+    values = pixel_values(picture, "auto", lightness=False)
+    assert values.is_difference
+    # The noise is known to 7 %, its square to 14: the root of what that leaves. The norm has 8.9.
+    assert abs(np.median(values.values[:][~inside])) < np.sqrt(0.14 * 0.789 * 10.0**2)
+    contrast = np.sqrt(((ink - paper) ** 2).mean())
+    assert np.median(values.values[:][inside]) == pytest.approx(contrast, abs=1.0)
+    plain = np.rint(np.where(inside[..., None], ink, paper)).astype(np.uint8)
+    assert (pixel_values(plain, "auto", lightness=False).values[:][~inside] == 0.0).all()

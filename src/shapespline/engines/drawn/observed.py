@@ -37,6 +37,9 @@ APART = 4.0
 # Points less accurate than this part of their step are those of a picture of one bit: along its
 # stairs they scatter by nothing, and are off by half a pixel (DRA-14).
 ONE_BIT = 0.15
+# Less accurate than this part of it are those of grainy pictures: what averaging along outlines
+# leaves of noise goes on, and shows less between neighbours than it is (DRA-61).
+SHAKEN = 0.075
 # Points of a table are not known better than this part of the extent (DRA-02).
 LAST_DIGIT = 1e-5
 # Of points with so many decimals it is what rounding leaves, if as much of that shows between
@@ -101,7 +104,7 @@ class Observed:
         if accuracy:
             shown = noise_level(Contour.trusted(points, closed))
             deviation = min(max(SLOW * shown, BEST * accuracy), accuracy) if shown else accuracy
-            if accuracy > ONE_BIT * step:
+            if accuracy > SHAKEN * step:
                 deviation = accuracy
             floor = SYSTEMATIC * deviation
             points = _thinned(points, closed, ceil(len(points) / MOST_NOISY))

@@ -68,3 +68,13 @@ def test_arcs_between_level_edges_are_rounded_as_well(form, draw):
 def test_more_decimals_than_count_are_none():
     seen = Observed.of(ss.Contour(ring(240, 0.0, 9), closed=True), None)
     assert seen.deviation == pytest.approx(LAST_DIGIT * 176, rel=0.01)
+
+
+@pytest.mark.parametrize(("accuracy", "deviation"), [(0.1, 0.1), (0.07, 0.3 * 0.07)])
+def test_errors_that_go_on_are_as_large_as_a_grainy_picture_says(accuracy, deviation):
+    """A circle of 60 pixels that waves slowly shows next to nothing between neighbours."""
+    angle = 2 * np.pi * np.arange(377) / 377
+    radius = 60 + 0.05 * np.sin(23 * angle)
+    points = radius[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    seen = Observed.of(ss.Contour(points, closed=True), accuracy)
+    assert seen.deviation == pytest.approx(deviation)
