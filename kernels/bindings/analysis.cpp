@@ -11,6 +11,7 @@
 #include "shapespline/analysis/centroid_distance.hpp"
 #include "shapespline/analysis/corners.hpp"
 #include "shapespline/analysis/cpda.hpp"
+#include "shapespline/analysis/cubic_windows.hpp"
 #include "shapespline/analysis/largest_bulge.hpp"
 
 using namespace nb::literals;
@@ -68,6 +69,22 @@ void bind_analysis(nb::module_ &m) {
         .def_prop_ro("side", [](const PosedContour &self) { return self.pose.side; })
         .def_prop_ro("scale", [](const PosedContour &self) { return self.pose.scale; })
         .def_ro("apart", &PosedContour::apart);
+
+    using Windows = Array<const double, nb::shape<2, -1, 8>>;
+    const auto windows = [](const Windows &rows) {
+        return ss::analysis::CubicWindows({rows.data(), rows.size()});
+    };
+    m.def(
+        "left_across",
+        [windows](Windows rows, Out1 sums) { windows(rows).across(sums.data()); },
+        "rows"_a.noconvert(), "sums"_a.noconvert());
+    m.def(
+        "left_at_twice_the_angle",
+        [windows](Windows rows) {
+            const ss::Vec2 mean = windows(rows).twice_direction();
+            return std::pair{mean.x, mean.y};
+        },
+        "rows"_a.noconvert());
 
     m.def(
         "largest_bulge",

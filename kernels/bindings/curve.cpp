@@ -2,13 +2,17 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "arrays.hpp"
 #include "shapespline/curve/bezier.hpp"
 #include "shapespline/curve/bspline.hpp"
+#include "shapespline/curve/common_tangents.hpp"
 #include "shapespline/curve/corner_parameters.hpp"
 #include "shapespline/curve/flatten.hpp"
+#include "shapespline/curve/joining.hpp"
 #include "shapespline/curve/line_to_corners.hpp"
 
 using namespace nb::literals;
@@ -107,10 +111,48 @@ void bind_chords(nb::module_ &m) {
         "line"_a.noconvert());
 }
 
+void bind_pieces_end_to_end(nb::module_ &m) {
+    using Numbers = std::vector<int>;
+    m.def(
+        "elevated",
+        [](In2 points, int degree, OutPoints out) {
+            std::ranges::copy(ss::elevated(vectors(points), degree), vectors(out).begin());
+        },
+        "points"_a.noconvert(), "degree"_a, "out"_a.noconvert());
+
+    nb::class_<ss::JoinedPieces>(m, "JoinedPieces")
+        .def(
+            "__init__",
+            [](ss::JoinedPieces *self, const Numbers &degrees, const Numbers &counts, In1 knots,
+               In2 points, int degree, double same) {
+                new (self) ss::JoinedPieces(
+                    ss::piece_row(degrees, counts, numbers(knots), vectors(points)), degree, same);
+            },
+            "degrees"_a, "counts"_a, "knots"_a.noconvert(), "points"_a.noconvert(), "degree"_a,
+            "same"_a)
+        .def_prop_ro("n_points", &ss::JoinedPieces::n_points)
+        .def(
+            "write",
+            [](const ss::JoinedPieces &self, Out1 knots, OutPoints points) {
+                self.write(knots.data(), vectors(points).data());
+            },
+            "knots"_a.noconvert(), "points"_a.noconvert());
+
+    m.def(
+        "make_tangents_common",
+        [](const Numbers &degrees, const Numbers &counts, OutPoints points, double largest_move,
+           double nearly, bool closed) {
+            ss::make_tangents_common(ss::piece_row(degrees, counts, {}, vectors(points)),
+                                     largest_move, nearly, closed);
+        },
+        "degrees"_a, "counts"_a, "points"_a.noconvert(), "largest_move"_a, "nearly"_a, "closed"_a);
+}
+
 }  // namespace
 
 void bind_curve(nb::module_ &m) {
     bind_splines(m);
     bind_beziers(m);
     bind_chords(m);
+    bind_pieces_end_to_end(m);
 }

@@ -66,6 +66,41 @@ def corner_parameters(
     least: float,  # radians
 ) -> list[float]: ...
 
+def elevated(
+    points: FloatArray,  # (p + 1, 2)
+    degree: int,
+    out: FloatArray,  # out (degree + 1, 2)
+) -> None: ...
+
+class JoinedPieces:
+    """Pieces end to end as one clamped B-spline over [0, 1]; those of lower degree are Beziers."""
+
+    def __init__(
+        self,
+        degrees: list[int],  # of the pieces
+        counts: list[int],  # of their control points
+        knots: FloatArray,  # of all, one after another
+        points: FloatArray,  # of all, (sum of counts, 2)
+        degree: int,
+        same: float,  # radians
+    ) -> None: ...
+    @property
+    def n_points(self) -> int: ...
+    def write(
+        self,
+        knots: FloatArray,  # out (n_points + degree + 1,)
+        points: FloatArray,  # out (n_points, 2)
+    ) -> None: ...
+
+def make_tangents_common(
+    degrees: list[int],
+    counts: list[int],
+    points: FloatArray,  # in and out (sum of counts, 2)
+    largest_move: float,
+    nearly: float,  # radians
+    closed: bool,
+) -> None: ...
+
 MOST_BESIDE_CORNER: int
 
 def line_to_corners(
@@ -196,6 +231,13 @@ def eliminated_step(
     damping: float,
     control_step: FloatArray,  # out (m, 2)
 ) -> tuple[bool, float, float]: ...  # solved, predicted decrease, gradient norm
+def left_across(
+    rows: FloatArray,  # (2, m, 8)
+    sums: FloatArray,  # out (m,)
+) -> None: ...
+def left_at_twice_the_angle(
+    rows: FloatArray,  # (2, m, 8)
+) -> tuple[float, float]: ...
 def largest_bulge(points: FloatArray, closed: bool) -> float: ...  # (n, 2), n >= 5
 
 LEAST_TURN: float

@@ -152,14 +152,11 @@ def along_one_direction(contour: Contour) -> float:
 
 def _along(windows: _Windows, closed: bool) -> float:
     """Standard deviation along the one direction, if there is one."""
-    x, y = windows.rests[:, :, HALF_WINDOW]
-    middle = x + 1j * y
-    turned = middle**2
-    twice = complex((turned / np.maximum(np.abs(turned), np.finfo(float).tiny)).mean())
+    twice = complex(*_kernels.left_at_twice_the_angle(windows.rows))
     if abs(twice) < DIRECTED:
         return 0.0
     way = np.exp(-0.5j * np.angle(twice))
-    rest, slope = ((part[0] + 1j * part[1]) * way for part in windows)
+    rest, slope = ((part[0] + 1j * part[1]) * way for part in (windows.rests, windows.slopes))
     slope /= np.maximum(np.abs(slope), np.finfo(float).tiny)
     sine = np.abs(slope.imag)
     # All about it are steep: corners at the ends of a bar are no noise.
@@ -182,17 +179,25 @@ def _across(windows: _Windows) -> float:
 
 def _left(windows: _Windows) -> FloatArray:
     """Sums of squares across the outline."""
-    (x, y), (u, v) = windows
-    across = x * v[:, None] - y * u[:, None]
-    speed_sq = np.maximum(u**2 + v**2, np.finfo(float).tiny)
-    return np.asarray((across**2).sum(axis=1) / speed_sq)
+    sums = np.empty(windows.rows.shape[1])
+    _kernels.left_across(windows.rows, sums)
+    return sums
 
 
 class _Windows(NamedTuple):
-    """What cubics leave of windows, shape (2, m, 7), and their slopes in the middle, (2, m)."""
+    """What cubics tell of windows, ``rows`` (2, m, 8): slopes in the middle, what they leave."""
 
-    rests: FloatArray
-    slopes: FloatArray
+    rows: FloatArray
+
+    @property
+    def rests(self) -> FloatArray:
+        """What is left of every point, shape (2, m, 7)."""
+        return self.rows[:, :, 1:]
+
+    @property
+    def slopes(self) -> FloatArray:
+        """Those in the middle, shape (2, m)."""
+        return self.rows[:, :, 0]
 
 
 def _windows_of(contour: Contour) -> _Windows:
@@ -211,8 +216,7 @@ def _windows(points: FloatArray, closed: bool, step: int) -> _Windows:
     windows = np.empty((2, len(range(0, n_windows, step)), width))
     for k in range(width):
         windows[:, :, k] = points[k : k + n_windows : step].T
-    found = windows @ _SLOPE_AND_REST
-    return _Windows(found[:, :, 1:], found[:, :, 0])
+    return _Windows(windows @ _SLOPE_AND_REST)
 
 
 def largest_bulge(contour: Contour) -> float:

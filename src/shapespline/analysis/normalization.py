@@ -15,7 +15,7 @@ import numpy as np
 from shapespline import _kernels
 from shapespline.analysis.run_averages import averaged
 from shapespline.geometry import backwards, nearest_points, reversed_curve
-from shapespline.values import Contour
+from shapespline.values import Contour, with_points
 
 if TYPE_CHECKING:
     from shapespline.typing import FloatArray, IntArray
@@ -197,18 +197,20 @@ class NormalizedContour(NamedTuple):
 
     def restored(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
         """Pieces where the data are and the way they run."""
-        linear, sizes = self.turn.T / self.scale, [len(piece.control_points) for piece in pieces]
+        placed = self.placed(pieces)
+        return backwards(placed) if self.reversed else placed
+
+    def placed(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
+        """Pieces where the data are, in canonical order."""
         points = self._restored_points(np.concatenate([p.control_points for p in pieces]))
-        pieces = tuple(
-            piece._replace(
-                control_points=control_points,
-                arc=None if piece.arc is None else piece.arc.moved(linear, self.middle),
-            )
-            for piece, control_points in zip(
-                pieces, np.split(points, np.cumsum(sizes[:-1])), strict=True
-            )
+        placed = with_points(pieces, points)
+        if all(piece.arc is None for piece in pieces):
+            return placed
+        linear = self.turn.T / self.scale
+        return tuple(
+            piece._replace(arc=piece.arc and piece.arc.moved(linear, self.middle))
+            for piece in placed
         )
-        return backwards(pieces) if self.reversed else pieces
 
     def restored_curve(self, curve: BSplineCurve) -> BSplineCurve:
         """A curve over [0, 1] where the data are and the way they run."""

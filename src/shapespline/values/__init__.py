@@ -13,7 +13,14 @@ from shapespline.values.knots import (
     on_grid,
     periodic_knots,
 )
-from shapespline.values.piece import CORNER_TURN, EXACT_TURN, SAME_FACTOR, SMOOTH_TURN, Piece
+from shapespline.values.piece import (
+    CORNER_TURN,
+    EXACT_TURN,
+    SAME_FACTOR,
+    SMOOTH_TURN,
+    Piece,
+    with_points,
+)
 from shapespline.values.regularity import Regularity
 from shapespline.values.shape import Shape, checked_parents, nesting_depth
 from shapespline.values.snapshot import Snapshot
@@ -55,4 +62,5 @@ __all__ = [
     "on_grid",
     "periodic_knots",
     "with_knot",
+    "with_points",
 ]

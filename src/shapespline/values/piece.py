@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise, starmap
+from itertools import accumulate, pairwise, starmap
 from math import dist
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -12,6 +12,8 @@ from shapespline.values.arc import Arc, deviation
 from shapespline.values.equality import hashed, same
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.typing import ArrayLike, FloatArray
 
 
@@ -135,3 +137,20 @@ class Piece(NamedTuple):
         if largest - smallest > SAME_FACTOR * largest:
             return Piece("spline", self.degree, self.knots, points)
         return self._replace(control_points=points, arc=self.arc.moved(linear, shift))
+
+
+def with_points(pieces: Sequence[Piece], points: FloatArray) -> tuple[Piece, ...]:
+    """Pieces with other control points: as many for each, those of all in one row.
+
+    Examples
+    --------
+    >>> side = Piece("line", 1, np.array([0.0, 0, 1, 1]), np.array([[0.0, 0], [1, 0]]))
+    >>> moved = with_points([side, side], np.array([[0.0, 0], [2, 0], [2, 0], [2, 5]]))
+    >>> [piece.control_points.tolist() for piece in moved]
+    [[[0.0, 0.0], [2.0, 0.0]], [[2.0, 0.0], [2.0, 5.0]]]
+    """
+    ends = accumulate((len(piece.control_points) for piece in pieces), initial=0)
+    return tuple(
+        Piece(piece.kind, piece.degree, piece.knots, points[begin:end], piece.arc)
+        for piece, (begin, end) in zip(pieces, pairwise(ends), strict=True)
+    )

@@ -37,6 +37,8 @@ class Constraints(NamedTuple):
 
 def pinned_exactly(pieces: tuple[Piece, ...], points: FloatArray) -> None:
     """Moves the nodes nearest to some points onto them, which undoes rounding."""
+    if not len(points):
+        return
     nodes = np.array([piece.control_points[0] for piece in pieces])
     nodes = np.concatenate([nodes, pieces[-1].control_points[-1:]])
     for point in points:

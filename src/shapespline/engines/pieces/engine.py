@@ -115,16 +115,17 @@ def in_data(
 
     ``constraints`` are by the indices of the data. Tangents that nearly agree are made to agree.
     """
-    restored = problem.normalized.restored(pieces)
-    pinned_exactly(restored, contour.points[constraints.through])
+    normalized = problem.normalized
+    # In canonical order: two joints of a parabola share a control point.
+    placed = normalized.placed(pieces)
+    pinned_exactly(placed, contour.points[constraints.through])
     if constraints.ends and not contour.closed:
         # Each to its own: where they meet both are the nearest.
-        restored[0].control_points[0] = contour.points[0]
-        restored[-1].control_points[-1] = contour.points[-1]
-    largest_move = LARGEST_MOVE * problem.tolerance / problem.normalized.scale
-    # In canonical order: two joints of a parabola share a control point.
-    turned = backwards(restored) if problem.normalized.reversed else restored
-    turned = aligned(turned, largest_move, closed=contour.closed)
-    restored = backwards(turned) if problem.normalized.reversed else turned
+        first, last = (-1, 0) if normalized.reversed else (0, -1)
+        placed[0].control_points[0] = contour.points[first]
+        placed[-1].control_points[-1] = contour.points[last]
+    largest_move = LARGEST_MOVE * problem.tolerance / normalized.scale
+    placed = aligned(placed, largest_move, closed=contour.closed)
+    restored = backwards(placed) if normalized.reversed else placed
     turned_exactly(restored, constraints.tangents)
     return restored

@@ -66,4 +66,6 @@ def fit_observed(
     )
     runs = [solver.run(tolerance, budget, observed, noise) for budget in BUDGETS[effort]]
     pieces = min(filter(None, runs), key=n_points_of, default=())
-    return aligned(pieces, LARGEST_MOVE * noise, closed=outline.closed) if faithful else pieces
+    if not (faithful and pieces):
+        return pieces
+    return aligned(pieces, LARGEST_MOVE * noise, closed=outline.closed)
