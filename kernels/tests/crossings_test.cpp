@@ -1,4 +1,4 @@
-// Crossings counted by the sweep against every pair of segments solved for their common point.
+// Crossings counted with boxes against every pair of segments solved for their common point.
 #include "check.hpp"
 #include "shapes.hpp"
 #include "shapespline/distance/crossing_pairs.hpp"
@@ -29,7 +29,7 @@ int counted(const std::vector<Vec2> &vertices) {
 
 }  // namespace
 
-TEST(the_sweep_finds_every_crossing_pair) {
+TEST(boxes_miss_no_crossing_pair) {
     std::mt19937 random(6);
     int total = 0;
     for (int trial = 0; trial < 60; ++trial) {

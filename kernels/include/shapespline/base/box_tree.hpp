@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "shapespline/base/vec2.hpp"
@@ -99,11 +100,33 @@ class BoxTree {
         }
     }
 
+    // Calls visit(i, k), i < k, for all pairs of items whose boxes may meet.
+    template <class Visit>
+    void visit_pairs(Visit &&visit) const {
+        std::vector<std::pair<std::size_t, std::size_t>> stack{{1, 1}};
+        while (!stack.empty()) {
+            const auto [a, b] = stack.back();  // of one level
+            stack.pop_back();
+            if (!boxes_[a].meets(boxes_[b])) continue;
+            if (a >= n_leaves_) {
+                const auto from = [&](std::size_t i) {
+                    visit_leaf(b - n_leaves_, [&](std::size_t k) { if (i < k) visit(i, k); });
+                };
+                visit_leaf(a - n_leaves_, from);
+                continue;
+            }
+            stack.emplace_back(2 * a, 2 * b);
+            stack.emplace_back(2 * a, 2 * b + 1);
+            stack.emplace_back(2 * a + 1, 2 * b + 1);
+            if (a != b) stack.emplace_back(2 * a + 1, 2 * b);
+        }
+    }
+
   private:
     static constexpr std::size_t kLeafSize = 4;
 
     template <class Visit>
-    void visit_leaf(std::size_t leaf, Visit &visit) const {
+    void visit_leaf(std::size_t leaf, Visit &&visit) const {
         const std::size_t begin = leaf * kLeafSize;
         for (std::size_t i = begin; i < std::min(begin + kLeafSize, n_items_); ++i) visit(i);
     }

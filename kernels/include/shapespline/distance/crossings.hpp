@@ -1,13 +1,13 @@
-// Crossings among segments by a sweep line (Shamos and Hoey 1976) without a status structure.
+// Crossings among segments, looked for where boxes of a tree meet.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
+#include "shapespline/base/box_tree.hpp"
 #include "shapespline/base/vec2.hpp"
 
 namespace shapespline {
@@ -24,46 +24,37 @@ inline bool closes(std::span<const Chord> chords) {
            kRounding * (norm(first.end - first.begin) + norm(last.end - last.begin));
 }
 
-// Number of crossings among segments: a sweep over them sorted by x. A point on a segment lies to
+// Number of crossings among segments that come in order along a curve. A point on a segment lies to
 // one side of it, so that a way through a vertex crosses once, and one that only touches it not at
 // all or twice; of both sides the one with more counts, and mirrored segments cross as often.
 // Neighbours that share an end, to rounding, do not cross: the last one and the first of a closed
 // way neither.
 inline int count_crossings(std::span<const Chord> chords) {
-    const int n = static_cast<int>(chords.size());
-    struct Item {
-        double low, high;
-        int chord;
-    };
-    std::vector<Item> items(n);
-    for (int i = 0; i < n; ++i)
-        items[i] = {std::min(chords[i].begin.x, chords[i].end.x),
-                    std::max(chords[i].begin.x, chords[i].end.x), i};
-    std::sort(items.begin(), items.end(), [](const Item &a, const Item &b) {
-        return a.low != b.low ? a.low < b.low : a.chord < b.chord;
+    const std::size_t n = chords.size();
+    std::vector<Box> boxes(n);
+    const BoxTree tree(n, [&](std::size_t i, Box &box) {
+        boxes[i].include(chords[i].begin);
+        boxes[i].include(chords[i].end);
+        box.include(boxes[i]);
     });
     // Whether two cross if points on a segment lie to the left of it, and if to the right.
-    const auto crosses = [&](int i, int k) -> std::array<bool, 2> {
+    const auto crosses = [&](std::size_t i, std::size_t k) -> std::array<bool, 2> {
         const auto [a, b] = chords[i];
         const auto [c, d] = chords[k];
-        if (std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
-            return {false, false};
         const auto side = [](Vec2 p, Vec2 q, Vec2 r) { return cross(q - p, r - p); };
         const double abc = side(a, b, c), abd = side(a, b, d);
         const double cda = side(c, d, a), cdb = side(c, d, b);
         return {(abc >= 0.0) != (abd >= 0.0) && (cda >= 0.0) != (cdb >= 0.0),
                 (abc > 0.0) != (abd > 0.0) && (cda > 0.0) != (cdb > 0.0)};
     };
-    const int most_apart = n > 0 && closes(chords) ? n - 1 : n;
+    const std::size_t most_apart = n > 0 && closes(chords) ? n - 1 : n;
     int left = 0, right = 0;
-    for (int i = 0; i < n; ++i)
-        for (int k = i + 1; k < n && items[k].low <= items[i].high; ++k) {
-            const int apart = std::abs(items[i].chord - items[k].chord);
-            if (apart <= 1 || apart >= most_apart) continue;
-            const auto [on_left, on_right] = crosses(items[i].chord, items[k].chord);
-            left += on_left;
-            right += on_right;
-        }
+    tree.visit_pairs([&](std::size_t i, std::size_t k) {
+        if (k - i <= 1 || k - i >= most_apart || !boxes[i].meets(boxes[k])) return;
+        const auto [on_left, on_right] = crosses(i, k);
+        left += on_left;
+        right += on_right;
+    });
     return std::max(left, right);
 }
 
