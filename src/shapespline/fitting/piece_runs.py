@@ -83,7 +83,7 @@ class _Cut(NamedTuple):
 
 
 def runs_of(problem: Problem, pieces: tuple[Piece, ...]) -> list[Run]:
-    """Runs of pieces of the whole outline, end to end, where some turn.
+    """Runs of pieces of the whole outline, end to end, where some turn inside of one.
 
     They end where pieces and data have a corner, and where pieces have a sharp one. The first of a
     closed outline is the same whatever the order of the data. None if it is not sure which data
@@ -96,6 +96,8 @@ def runs_of(problem: Problem, pieces: tuple[Piece, ...]) -> list[Run]:
     if not turns:
         return []
     cuts, first = _corners(problem, pieces, turns), _Cut(0, 0)
+    if len(cuts) == len(turns):
+        return []
     if not contour.closed:
         cuts.append(first)
     elif cuts:

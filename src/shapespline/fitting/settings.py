@@ -31,6 +31,16 @@ if TYPE_CHECKING:
 DEFAULT_METHOD = "levenberg-marquardt"
 # Of settings in a file: a later program may read them otherwise.
 SETTINGS_VERSION = 1
+# The words that options may be.
+WORDS = {
+    "form": get_args(Form),
+    "ends": get_args(Ends),
+    "effort": get_args(Effort),
+    "knots": get_args(Knots),
+    "character": get_args(Character),
+    "corners": get_args(CornerChoice),
+    "loss": get_args(Loss),
+}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -79,15 +89,10 @@ class Settings:
     def __post_init__(self) -> None:
         set_ = object.__setattr__
         set_(self, "degree", check_degree(self.degree))
-        for name, words in (
-            ("form", Form),
-            ("ends", Ends),
-            ("effort", Effort),
-            ("knots", Knots),
-        ):
-            checked_choice(name, getattr(self, name), get_args(words))
+        for name in ("form", "ends", "effort", "knots"):
+            checked_choice(name, getattr(self, name), WORDS[name])
         if self.character is not None:
-            checked_choice("character", self.character, get_args(Character))
+            checked_choice("character", self.character, WORDS["character"])
         for name in ("symmetric", "simplify", "outliers"):
             set_(self, name, checked_flag(name, getattr(self, name)))
         set_(self, "time_limit", checked_time_limit(self.time_limit))
@@ -101,7 +106,7 @@ class Settings:
         if not (self.corners is None or isinstance(self.corners, str)):
             expected = "'auto', 'free', None or indices of points"
             set_(self, "corners", checked_indices("corners", self.corners, expected))
-        elif isinstance(self.corners, str) and self.corners not in get_args(CornerChoice):
+        elif isinstance(self.corners, str) and self.corners not in WORDS["corners"]:
             raise InvalidInputError(
                 f"corners must be 'auto', 'free', None or indices, got {self.corners!r}"
             )
@@ -114,7 +119,7 @@ class Settings:
             if getattr(self, name) is not None:
                 set_(self, name, float_array(getattr(self, name), name))
         if self.loss is not None:
-            checked_choice("loss", self.loss, get_args(Loss))
+            checked_choice("loss", self.loss, WORDS["loss"])
         self._check_together()
 
     def _check_together(self) -> None:

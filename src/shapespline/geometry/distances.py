@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline import _kernels
-from shapespline.geometry.nearest import Nearest, nearest
+from shapespline.geometry.nearest import Nearest, feet_of, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -76,11 +76,12 @@ def two_sided_distance(curve: BSplineCurve, contour: Contour) -> Distances:
     (True, 1.0)
     """
     centred, lost = CentredCurve.of(curve, contour), rounding(curve, contour)
-    found = centred.nearest(contour.points)
+    polyline = contour.polyline - centred.middle
+    found = feet_of(centred.moved, polyline[: len(contour)])
     return Distances(
         float(np.sqrt(found.distances_sq.max())) + lost,
         float(np.sqrt(found.distances_sq.mean())),
-        centred.reverse_distance(contour) + lost,
+        centred.farthest_from(polyline, FLOOR * contour.box_diagonal) + lost,
         found.parameters,
     )
 
@@ -99,7 +100,10 @@ def distances_at(curve: BSplineCurve, contour: Contour, parameters: FloatArray) 
 
 def reverse_distance(curve: BSplineCurve, contour: Contour) -> float:
     """Certified bound of the distance from the curve to the data polyline."""
-    return CentredCurve.of(curve, contour).reverse_distance(contour) + rounding(curve, contour)
+    centred = CentredCurve.of(curve, contour)
+    polyline = contour.polyline - centred.middle
+    bound = centred.farthest_from(polyline, FLOOR * contour.box_diagonal)
+    return bound + rounding(curve, contour)
 
 
 class CentredCurve(NamedTuple):
@@ -111,7 +115,8 @@ class CentredCurve(NamedTuple):
     @classmethod
     def of(cls, curve: BSplineCurve, contour: Contour) -> CentredCurve:
         """The curve about the middle of a contour's box."""
-        middle = np.array([0.5 * (x.min() + x.max()) for x in contour.points.T])
+        low, high = contour.box
+        middle = 0.5 * (low + high)
         points = curve.control_points - middle
         return cls(type(curve).trusted(curve.knots, points, curve.degree, curve.periodic), middle)
 
@@ -119,21 +124,22 @@ class CentredCurve(NamedTuple):
         """Nearest points of the curve, as `nearest` finds them."""
         return nearest(self.moved, points - self.middle)
 
-    def reverse_distance(self, contour: Contour) -> float:
-        """Bound of the distance to the data polyline, but for rounding."""
+    def farthest_from(self, polyline: FloatArray, floor: float) -> float:
+        """Bound of the distance to a polyline about the middle, tight to a part or a floor."""
         _, reverse, _ = _kernels.curve_deviation(
             self.moved.knots,
             self.moved.degree,
             self.moved.coefficients,
-            contour.polyline - self.middle,
+            polyline,
             RELATIVE_GAP,
-            FLOOR * contour.box_diagonal,
+            floor,
         )
         return float(reverse)
 
 
 def rounding(curve: BSplineCurve, contour: Contour) -> float:
     """A few units in the last place of the largest coordinate."""
-    arrays = (contour.points, curve.control_points)
-    largest = max(max(-array.min(), array.max()) for array in arrays)
+    low, high = contour.box
+    points = curve.control_points
+    largest = max(-low.min(), high.max(), -points.min(), points.max())
     return 8.0 * float(np.finfo(float).eps * largest)

@@ -52,6 +52,11 @@ def nearest(curve: BSplineCurve, points: ArrayLike) -> Nearest:
             f"points must be a finite (k, 2) array, got shape {queries.shape} with"
             f" {int((~np.isfinite(queries)).sum())} numbers that are not finite"
         )
+    return feet_of(curve, queries)
+
+
+def feet_of(curve: BSplineCurve, queries: FloatArray) -> Nearest:
+    """The same of an array of points that is known to be one."""
     parameters, distances_sq = np.empty(len(queries)), np.empty(len(queries))
     _kernels.nearest_on_curve(
         curve.knots, curve.degree, curve.coefficients, queries, parameters, distances_sq

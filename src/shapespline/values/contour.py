@@ -307,9 +307,15 @@ class Contour(ByValue, Shown, Exchanged):
         return float(self.arc_length[-1])
 
     @cached_property
+    def box(self) -> tuple[FloatArray, FloatArray]:
+        """The least and the largest coordinates, shape (2,) each."""
+        return _read_only(self.points.min(axis=0)), _read_only(self.points.max(axis=0))
+
+    @cached_property
     def box_diagonal(self) -> float:
         """Diagonal of the bounding box, data units."""
-        return float(np.hypot(np.ptp(self.points[:, 0]), np.ptp(self.points[:, 1])))
+        low, high = self.box
+        return float(np.hypot(*(high - low)))
 
     def at(self, arc_length: FloatArray) -> FloatArray:
         """Points of the data polyline at given arc lengths in [0, length], shape (k, 2)."""
