@@ -2,8 +2,8 @@
 //
 // Half the squared distance |C(u) - q|^2 / 2 has the derivatives r . C' and |C'|^2 + r . C''. Who
 // steps, and how far a step may go, differs: along a whole curve (near_feet.hpp), over the knot
-// intervals of a window (spline/tracking.hpp), over the spans of a section
-// (pieces/section_feet.hpp) and within one Bezier, two data at once (pieces/bezier_squares.hpp).
+// intervals of a window (spline/tracking.hpp), over the spans of a section, of one span two data at
+// once (pieces/section_feet.hpp), and within one Bezier (pieces/bezier_squares.hpp).
 // The global search (nearest.hpp) begins far from the foot and has a safeguard of its own.
 #pragma once
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "shapespline/base/pair.hpp"
 #include "shapespline/distance/newton.hpp"
 #include "shapespline/distance/polyline.hpp"
 #include "shapespline/pieces/section.hpp"
@@ -18,6 +19,41 @@ struct Feet {
     double *distances_sq;
 };
 
+// The steps of `improve_feet` for two data of a section of one span: the same bits. Parameters in,
+// offsets along the span out. One that has stopped comes no nearer in steps for the other.
+inline void improve_two_feet(const SpanPolynomial &span, Pair x, Pair y, int iterations,
+                             double enough_sq, Pair &offset, Pair &distance_sq) {
+    const auto at = [](const auto &c, Pair v) {
+        return ((c[3] * v + c[2]) * v + c[1]) * v + c[0];
+    };
+    const auto slope_at = [](const auto &c, Pair v) {
+        return (3.0 * c[3] * v + 2.0 * c[2]) * v + c[1];
+    };
+    const auto bend_at = [](const auto &c, Pair v) { return 6.0 * c[3] * v + 2.0 * c[2]; };
+    Pair v = clamped(offset, 0.0, 1.0) - both(span.begin);
+    offset = v;
+    distance_sq = both(std::numeric_limits<double>::infinity());
+    for (int step = 0; step <= iterations; ++step) {
+        const Pair rx = at(span.x, v) - x, ry = at(span.y, v) - y;
+        const Pair now_sq = rx * rx + ry * ry;
+        const auto nearer = now_sq < distance_sq;
+        distance_sq = chosen(nearer, now_sq, distance_sq);
+        offset = chosen(nearer, v, offset);
+        if (step == iterations) break;
+        const Pair tx = slope_at(span.x, v), ty = slope_at(span.y, v);
+        const Pair speed_sq = tx * tx + ty * ty;
+        const Pair bend = rx * bend_at(span.x, v) + ry * bend_at(span.y, v);
+        const Pair curvature = descent_curvature(speed_sq, speed_sq + bend);
+        const Pair slope = rx * tx + ry * ty;
+        const Pair moved = v + clamped(-slope / curvature, -span.width, span.width);
+        Pair next = clamped(moved, 0.0, span.width);
+        next = chosen(slope * slope < enough_sq * curvature, v, next);
+        next = chosen(nearer, chosen(curvature > both(0.0), next, v), v);
+        if (next[0] == v[0] && next[1] == v[1]) break;
+        v = next;
+    }
+}
+
 // Moves every foot point downhill by safeguarded Newton steps along the section.
 //
 // A step stays within one span width, and the best point met is kept: a distance never rises. Done
@@ -27,6 +63,21 @@ struct Feet {
 inline void improve_feet(const SpanPolynomial *spans, int n_spans, const Vec2 *data,
                          std::span<const Index> active, Index base, int iterations,
                          double enough_sq, Feet feet) {
+    if (n_spans == 1) {
+        for (std::size_t i = 0; i < active.size(); i += 2) {
+            const Index j = active[i] - base, k = active[std::min(i + 1, active.size() - 1)] - base;
+            Pair offset{feet.parameters[j], feet.parameters[k]}, distance_sq;
+            improve_two_feet(spans[0], Pair{data[j].x, data[k].x},
+                             Pair{data[j].y, data[k].y}, iterations,
+                             enough_sq, offset, distance_sq);
+            feet.spans[j] = feet.spans[k] = 0;
+            feet.parameters[j] = spans[0].begin + offset[0];
+            feet.parameters[k] = spans[0].begin + offset[1];
+            feet.distances_sq[j] = distance_sq[0];
+            feet.distances_sq[k] = distance_sq[1];
+        }
+        return;
+    }
     for (const Index at : active) {
         const Index j = at - base;
         const double u = std::clamp(feet.parameters[j], 0.0, 1.0);
