@@ -70,6 +70,13 @@ void bind_analysis(nb::module_ &m) {
         .def_prop_ro("scale", [](const PosedContour &self) { return self.pose.scale; })
         .def_ro("apart", &PosedContour::apart);
 
+    m.def(
+        "windows_of_seven",
+        [](In2 points, bool closed, std::size_t step, Array<double, nb::shape<2, -1, 7>> windows) {
+            ss::analysis::windows_of_seven(vectors(points), closed, step,
+                                           {windows.data(), windows.size()});
+        },
+        "points"_a.noconvert(), "closed"_a, "step"_a, "windows"_a.noconvert());
     using Windows = Array<const double, nb::shape<2, -1, 8>>;
     const auto windows = [](const Windows &rows) {
         return ss::analysis::CubicWindows({rows.data(), rows.size()});

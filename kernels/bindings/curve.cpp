@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "shapespline/curve/arc_length.hpp"
 #include "shapespline/curve/bezier.hpp"
 #include "shapespline/curve/bspline.hpp"
 #include "shapespline/curve/common_tangents.hpp"
@@ -71,6 +72,14 @@ void bind_beziers(nb::module_ &m) {
 }
 
 void bind_chords(nb::module_ &m) {
+    m.def(
+        "arc_length",
+        [](In2 vertices, Out1 along) {
+            nb::gil_scoped_release release;
+            ss::arc_length(vectors(vertices), along.data());
+        },
+        "vertices"_a.noconvert(), "along"_a.noconvert());
+
     nb::class_<ss::Flattening> flattening(m, "Flattening");
     flattening.attr("SAMPLING") = ss::Flattening::kSampling;
     flattening.attr("COARSEST") = ss::Flattening::kCoarsest;

@@ -1,10 +1,10 @@
 // The structured fit in lines, Beziers and small splines.
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <optional>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "arrays.hpp"
@@ -28,11 +28,26 @@ struct PiecesOutline {
     }
 };
 
-// Of each section: degree, number of points, knots and coordinates end to end.
-using PiecesTuple = std::tuple<std::vector<int>, std::vector<std::size_t>, std::vector<double>,
-                               std::vector<double>>;
+struct PiecesFound {
+    std::vector<pieces::Section> sections;
 
-PiecesTuple fit_pieces(const PiecesOutline &outline, const pieces::PiecesSettings &settings,
+    template <class Of>
+    std::vector<int> each(Of &&of) const {
+        std::vector<int> found;
+        for (const pieces::Section &s : sections) found.push_back(static_cast<int>(of(s)));
+        return found;
+    }
+    void write(const Out1 &knots, const OutPoints &points) const {
+        auto at_knot = knots.data();
+        auto at_point = vectors(points).begin();
+        for (const pieces::Section &s : sections) {
+            at_knot = std::ranges::copy(s.knots, at_knot).out;
+            at_point = std::ranges::copy(s.points, at_point).out;
+        }
+    }
+};
+
+PiecesFound fit_pieces(const PiecesOutline &outline, const pieces::PiecesSettings &settings,
                        const nb::object &ask, const std::optional<In2> &observed, double noise) {
     ss::Interruption asking = interruption(ask);
     nb::gil_scoped_release release;
@@ -40,15 +55,7 @@ PiecesTuple fit_pieces(const PiecesOutline &outline, const pieces::PiecesSetting
     if (observed && !sections.empty())
         sections = pieces::fit_observed(vectors(*observed), outline.closed, std::move(sections),
                                         noise);
-    PiecesTuple found;
-    auto &[degrees, counts, knots, coordinates] = found;
-    for (const pieces::Section &s : sections) {
-        degrees.push_back(s.degree);
-        counts.push_back(s.points.size());
-        knots.insert(knots.end(), s.knots.begin(), s.knots.end());
-        for (const ss::Vec2 p : s.points) coordinates.insert(coordinates.end(), {p.x, p.y});
-    }
-    return found;
+    return {std::move(sections)};
 }
 
 }  // namespace
@@ -64,6 +71,16 @@ void bind_pieces(nb::module_ &m) {
     nb::class_<PiecesOutline>(m, "PiecesOutline")
         .def(nb::init<In2, bool, InIndices, InIndices, InIndices>(), "points"_a.noconvert(),
              "closed"_a, "joint"_a.noconvert(), "forced"_a.noconvert(), "low_turn"_a.noconvert());
+    nb::class_<PiecesFound>(m, "PiecesFound")
+        .def_prop_ro("degrees",
+                     [](const PiecesFound &self) {
+                         return self.each([](const auto &s) { return s.degree; });
+                     })
+        .def_prop_ro("counts",
+                     [](const PiecesFound &self) {
+                         return self.each([](const auto &s) { return s.points.size(); });
+                     })
+        .def("write", &PiecesFound::write, "knots"_a.noconvert(), "points"_a.noconvert());
     m.def("fit_pieces", &fit_pieces, "outline"_a, "settings"_a, "ask"_a,
           "observed"_a.none().noconvert() = nb::none(), "noise"_a = 0.0);
 }

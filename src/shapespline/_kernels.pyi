@@ -32,6 +32,11 @@ def bezier_pieces(
     breakpoints: FloatArray,  # out (spans + 1,)
 ) -> None: ...
 
+def arc_length(
+    vertices: FloatArray,  # (k, 2)
+    along: FloatArray,  # out (k,)
+) -> None: ...
+
 class Flattening:
     """Points on a curve so dense that the chords between them stay near it."""
 
@@ -231,6 +236,12 @@ def eliminated_step(
     damping: float,
     control_step: FloatArray,  # out (m, 2)
 ) -> tuple[bool, float, float]: ...  # solved, predicted decrease, gradient norm
+def windows_of_seven(
+    points: FloatArray,  # (n, 2)
+    closed: bool,
+    step: int,
+    windows: FloatArray,  # out (2, m, 7): every so many-th of n, or of n - 6 if open
+) -> None: ...
 def left_across(
     rows: FloatArray,  # (2, m, 8)
     sums: FloatArray,  # out (m,)
@@ -314,15 +325,26 @@ class PiecesOutline:
         low_turn: IntArray,  # (n,), 0 or 1
     ) -> None: ...
 
+class PiecesFound:
+    """Sections end to end, none if the search was ended before there were any."""
+
+    @property
+    def degrees(self) -> list[int]: ...
+    @property
+    def counts(self) -> list[int]: ...  # of control points
+    def write(
+        self,
+        knots: FloatArray,  # out (sum of counts + degrees + 1,)
+        points: FloatArray,  # out (sum of counts, 2)
+    ) -> None: ...
+
 def fit_pieces(
     outline: PiecesOutline,
     settings: PiecesSettings,
     ask: _Ask,
     observed: FloatArray | None = None,  # (n, 2): the sections are fitted to these in the end
     noise: float = 0.0,
-) -> tuple[
-    list[int], list[int], list[float], list[float]
-]: ...  # of each section: degree, number of points, knots and coordinates end to end
+) -> PiecesFound: ...
 
 class FitStage:
     def __init__(

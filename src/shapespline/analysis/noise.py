@@ -208,14 +208,9 @@ def _windows_of(contour: Contour) -> _Windows:
 
 def _windows(points: FloatArray, closed: bool, step: int) -> _Windows:
     """Every so many-th window."""
-    width = 2 * HALF_WINDOW + 1
-    points = points - points[0]
-    if closed:
-        points = np.concatenate([points[-HALF_WINDOW:], points, points[:HALF_WINDOW]])
-    n_windows = len(points) - width + 1
-    windows = np.empty((2, len(range(0, n_windows, step)), width))
-    for k in range(width):
-        windows[:, :, k] = points[k : k + n_windows : step].T
+    n_windows = len(points) - (0 if closed else 2 * HALF_WINDOW)
+    windows = np.empty((2, len(range(0, n_windows, step)), 2 * HALF_WINDOW + 1))
+    _kernels.windows_of_seven(np.ascontiguousarray(points), closed, step, windows)
     return _Windows(windows @ _SLOPE_AND_REST)
 
 

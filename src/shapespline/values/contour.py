@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.errors import (
     DegenerateContourError,
     DroppedPointsWarning,
@@ -297,9 +298,9 @@ class Contour(ByValue, Shown, Exchanged):
     @cached_property
     def arc_length(self) -> FloatArray:
         """Cumulative length at the vertices of ``polyline``, shape (n,) or (n + 1,) if closed."""
-        steps = np.diff(self.polyline, axis=0)
-        lengths = np.hypot(steps[:, 0], steps[:, 1])
-        return _read_only(np.concatenate([[0.0], np.cumsum(lengths)]))
+        along = np.empty(len(self.polyline))
+        _kernels.arc_length(self.polyline, along)
+        return _read_only(along)
 
     @property
     def length(self) -> float:

@@ -11,6 +11,25 @@
 
 namespace shapespline::analysis {
 
+// Every so many-th window of points, about the first of them: seven numbers each, first x of all
+// windows, then y. Those of a closed outline are about its points, those of an open one about all
+// but three at either end.
+inline void windows_of_seven(std::span<const Vec2> points, bool closed, std::size_t step,
+                             std::span<double> windows) {
+    constexpr std::size_t kHalf = 3, kWidth = 2 * kHalf + 1;
+    const std::size_t n = points.size(), count = windows.size() / (2 * kWidth);
+    double *x = windows.data(), *y = x + count * kWidth;
+    for (std::size_t w = 0; w < count; ++w) {
+        std::size_t i = closed ? (w * step + n * kHalf - kHalf) % n : w * step;
+        for (std::size_t k = 0; k < kWidth; ++k) {
+            const Vec2 p = points[i] - points[0];
+            *x++ = p.x;
+            *y++ = p.y;
+            if (++i == n) i = 0;
+        }
+    }
+}
+
 // Rows of eight numbers, first x of all windows, then y: the slope of the cubic in the middle and
 // what is left of each point.
 class CubicWindows {

@@ -108,7 +108,7 @@ class PiecesSolver(NamedTuple):
                 thorough=budget.thorough,
             ),
         )
-        degrees, counts, knots, coordinates = _kernels.fit_pieces(
+        found = _kernels.fit_pieces(
             _kernels.PiecesOutline(
                 contour.points, contour.closed, joints, forced, outline.low_turn
             ),
@@ -117,8 +117,7 @@ class PiecesSolver(NamedTuple):
             observed,
             noise,
         )
-        pieces = _unpacked(degrees, counts, np.array(knots), np.array(coordinates))
-        return without_extensions(pieces, self.problem)
+        return without_extensions(_unpacked(found), self.problem)
 
 
 def n_points_of(pieces: Sequence[Piece]) -> int:
@@ -126,14 +125,15 @@ def n_points_of(pieces: Sequence[Piece]) -> int:
     return sum(len(piece.control_points) - 1 for piece in pieces)
 
 
-def _unpacked(
-    degrees: list[int], counts: list[int], knots: FloatArray, coordinates: FloatArray
-) -> tuple[Piece, ...]:
-    """Pieces from the kernel's arrays end to end."""
+def _unpacked(found: _kernels.PiecesFound) -> tuple[Piece, ...]:
+    """Pieces of what the kernel found."""
+    degrees, counts = found.degrees, found.counts
+    points = np.empty((sum(counts), 2))
+    knots = np.empty(len(points) + sum(degrees) + len(degrees))
+    found.write(knots, points)
     knots = on_grid(knots)
     pieces = []
     k = m = 0
-    points = coordinates.reshape(-1, 2)
     for degree, count in zip(degrees, counts, strict=True):
         inner = count - degree - 1
         kind = "line" if degree == 1 else "bezier" if inner == 0 else "spline"
