@@ -96,11 +96,18 @@ class PNormFit {
     }
 
     double merit(const Fitted &fitted, int half_power) const {
-        double sum = 0.0, sampled = 0.0;
+        return merit_of_data(fitted, half_power) + merit_of_samples(fitted, half_power);
+    }
+    double merit_of_data(const Fitted &fitted, int half_power) const {
+        double sum = 0.0;
         for (const Vec2 r : fitted.residuals) sum += power(norm_sq(r) * inverse_sq_, half_power);
+        return sum;
+    }
+    double merit_of_samples(const Fitted &fitted, int half_power) const {
+        double sum = 0.0;
         for (const CurveSample &s : fitted.samples)
-            sampled += power(s.distance_sq * inverse_sq_, half_power);
-        return sum + limits_->sample_weight * sampled;
+            sum += power(s.distance_sq * inverse_sq_, half_power);
+        return limits_->sample_weight * sum;
     }
 
     void keep_if_best() {
@@ -116,6 +123,7 @@ class PNormFit {
         ++iterations_;
         if (!system_.solve(1e-6, step_)) return;
         advance(false);
+        sample_next();
         std::swap(current_, next_);
         keep_if_best();
     }
@@ -139,7 +147,11 @@ class PNormFit {
                     stage.half_power * inverse_sq_ * system_.promised(damping_, step_);
                 if (promised < kRelativeStop * value) return;
                 advance(stage.intervals_free);
-                next_value = merit(next_, stage.half_power);
+                next_value = merit_of_data(next_, stage.half_power);
+                if (next_value < value) {  // else nobody asks for the other direction
+                    sample_next();
+                    next_value += merit_of_samples(next_, stage.half_power);
+                }
                 improved = next_value < value;
                 if (!improved) damping_ = kDampingFactor * damping_ + 1e-9;
             }
@@ -214,7 +226,9 @@ class PNormFit {
         if (intervals_free) move_intervals(scale);
         Tracking<Degree>::span_curves(next_.curve, next_.curves);
         Tracking<Degree>::project(window, next_.curve, next_.curves, kFootSteps, next_.residuals);
-        Tracking<Degree>::sample(window, next_.curve, next_.curves, limits_->samples_per_span,
+    }
+    void sample_next() {
+        Tracking<Degree>::sample(*window_, next_.curve, next_.curves, limits_->samples_per_span,
                                  near_sq_, &current_.samples, next_.samples);
         measure(next_);
     }
