@@ -129,6 +129,13 @@ void bind_pieces_end_to_end(nb::module_ &m) {
         },
         "points"_a.noconvert(), "degree"_a, "out"_a.noconvert());
 
+    m.def(
+        "polygon_lengths",
+        [](const Numbers &counts, In2 points) {
+            return ss::polygon_lengths(counts, vectors(points));
+        },
+        "counts"_a, "points"_a.noconvert());
+
     nb::class_<ss::JoinedPieces>(m, "JoinedPieces")
         .def(
             "__init__",

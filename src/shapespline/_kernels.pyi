@@ -31,7 +31,6 @@ def bezier_pieces(
     points: FloatArray,  # out (spans * (degree + 1), 2)
     breakpoints: FloatArray,  # out (spans + 1,)
 ) -> None: ...
-
 def arc_length(
     vertices: FloatArray,  # (k, 2)
     along: FloatArray,  # out (k,)
@@ -70,12 +69,15 @@ def corner_parameters(
     closed: bool,
     least: float,  # radians
 ) -> list[float]: ...
-
 def elevated(
     points: FloatArray,  # (p + 1, 2)
     degree: int,
     out: FloatArray,  # out (degree + 1, 2)
 ) -> None: ...
+def polygon_lengths(
+    counts: list[int],  # of the control points of pieces
+    points: FloatArray,  # of all, (sum of counts, 2)
+) -> list[float]: ...
 
 class JoinedPieces:
     """Pieces end to end as one clamped B-spline over [0, 1]; those of lower degree are Beziers."""

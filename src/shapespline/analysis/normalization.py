@@ -202,7 +202,7 @@ class NormalizedContour(NamedTuple):
 
     def placed(self, pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
         """Pieces where the data are, in canonical order."""
-        points = self._restored_points(np.concatenate([p.control_points for p in pieces]))
+        points = self.restored_points(np.concatenate([p.control_points for p in pieces]))
         placed = with_points(pieces, points)
         if all(piece.arc is None for piece in pieces):
             return placed
@@ -214,11 +214,11 @@ class NormalizedContour(NamedTuple):
 
     def restored_curve(self, curve: BSplineCurve) -> BSplineCurve:
         """A curve over [0, 1] where the data are and the way they run."""
-        control_points = self._restored_points(curve.control_points)
+        control_points = self.restored_points(curve.control_points)
         moved = type(curve).trusted(curve.knots, control_points, curve.degree, curve.periodic)
         return reversed_curve(moved) if self.reversed else moved
 
-    def _restored_points(self, points: FloatArray) -> FloatArray:
+    def restored_points(self, points: FloatArray) -> FloatArray:
         """Points in data units; those that are points of the contour are the data's to the bit."""
         restored = _turned(points, self.turn.T) / self.scale + self.middle
         if self.data is not None:
@@ -232,7 +232,9 @@ def _turned(points: FloatArray, turn: FloatArray) -> FloatArray:
     """Rows turned one by one: equal ones stay equal, which products of matrices do not promise."""
     (a, b), (c, d) = turn.tolist()
     x, y = points[:, 0], points[:, 1]
-    return np.column_stack([a * x + b * y, c * x + d * y])
+    turned = np.empty(points.shape)
+    turned[:, 0], turned[:, 1] = a * x + b * y, c * x + d * y
+    return turned
 
 
 def _scaled(length: float | None, scale: float) -> float | None:

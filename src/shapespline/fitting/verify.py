@@ -155,6 +155,8 @@ def verify(candidate: Candidate, request: Request) -> Verified:
 
 def _tangent_error(pieces: Sequence[Piece], constraints: Constraints) -> float:
     """The larger angle between a tangent that is kept and the curve's, radians; 0 for rounding."""
+    if all(wanted is None for wanted in constraints.tangents):
+        return 0.0
     errors = [0.0]
     first, last = pieces[0].control_points[:2], pieces[-1].control_points[-2:]
     for wanted, (a, b) in zip(constraints.tangents, (first, last), strict=True):

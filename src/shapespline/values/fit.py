@@ -177,8 +177,8 @@ class Fit(ByValue, Shown, Exchanged, FitMethods):
     @cached_property
     def closed(self) -> bool:
         """Whether the curve ends where it begins."""
-        ends = self.control_points[[0, -1]]
-        return self.spline.periodic or bool((ends[0] == ends[1]).all())
+        points = self.control_points
+        return self.spline.periodic or points[0].tolist() == points[-1].tolist()
 
     @cached_property
     def corners(self) -> FloatArray:

@@ -7,6 +7,7 @@ A knot vector is the full non-decreasing array, ``n_coefficients + degree + 1`` 
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,7 +36,7 @@ def on_grid(knots: FloatArray) -> FloatArray:
     >>> bool((1.0 - (1.0 - knots) == knots).all())
     True
     """
-    return np.asarray(np.round(knots * KNOT_GRID) / KNOT_GRID)
+    return np.asarray(np.rint(knots * KNOT_GRID) / KNOT_GRID)
 
 
 def check_degree(degree: int) -> int:
@@ -139,7 +140,8 @@ def check_knots(knots: FloatArray, degree: int, *, periodic: bool) -> None:
             f"knots must be one array of at least 2 (degree + 1) = {2 * degree + 2} values,"
             f" got shape {knots.shape}"
         )
-    if not (knots[1:] >= knots[:-1]).all() or not np.isfinite(knots[[0, -1]]).all():
+    ends_are_finite = isfinite(knots[0]) and isfinite(knots[-1])
+    if not (ends_are_finite and (knots[1:] >= knots[:-1]).all()):
         if not np.isfinite(knots).all():
             raise InvalidInputError("knots must be finite, got NaN or infinity")
         at = int(np.flatnonzero(np.diff(knots) < 0)[0])

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "shapespline/base/length.hpp"
 #include "shapespline/base/vec2.hpp"
 
 namespace shapespline {
@@ -32,6 +33,19 @@ std::vector<PieceView<Point>> piece_row(std::span<const int> degrees, std::span<
         m += n;
     }
     return row;
+}
+
+// Lengths of the control polygons of all pieces.
+inline std::vector<double> polygon_lengths(std::span<const int> counts,
+                                           std::span<const Vec2> points) {
+    std::vector<double> lengths;
+    for (const int count : counts) {
+        double sum = 0.0;
+        for (int i = 1; i < count; ++i) sum += length(points[i] - points[i - 1]);
+        lengths.push_back(sum);
+        points = points.subspan(count);
+    }
+    return lengths;
 }
 
 }  // namespace shapespline

@@ -11,11 +11,14 @@ from __future__ import annotations
 from itertools import product
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from shapespline.engines.pieces.constraints import pinned_exactly
 from shapespline.engines.pieces.end_tangents import turned_exactly
 from shapespline.engines.pieces.search import BUDGETS, PiecesSolver, n_points_of
-from shapespline.engines.pieces.tangents import aligned
+from shapespline.engines.pieces.tangents import align
 from shapespline.geometry import backwards
+from shapespline.values import with_points
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -117,7 +120,8 @@ def in_data(
     """
     normalized = problem.normalized
     # In canonical order: two joints of a parabola share a control point.
-    placed = normalized.placed(pieces)
+    points = normalized.restored_points(np.concatenate([p.control_points for p in pieces]))
+    placed = with_points(pieces, points)
     pinned_exactly(placed, contour.points[constraints.through])
     if constraints.ends and not contour.closed:
         # Each to its own: where they meet both are the nearest.
@@ -125,7 +129,7 @@ def in_data(
         placed[0].control_points[0] = contour.points[first]
         placed[-1].control_points[-1] = contour.points[last]
     largest_move = LARGEST_MOVE * problem.tolerance / normalized.scale
-    placed = aligned(placed, largest_move, closed=contour.closed)
+    align(placed, points, largest_move, closed=contour.closed)
     restored = backwards(placed) if normalized.reversed else placed
     turned_exactly(restored, constraints.tangents)
     return restored

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import accumulate, pairwise
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -146,11 +146,10 @@ def without_degenerate(pieces: list[Piece]) -> tuple[Piece, ...]:
     """The pieces but for those of next to no length; their neighbours meet, the ends stay."""
     if not pieces:
         return ()
-    starts = [0, *accumulate(len(piece.control_points) for piece in pieces[:-1])]
-    points = np.concatenate([piece.control_points for piece in pieces])
-    # From the end of one to the beginning of the next it is as good as nothing.
-    steps = np.hypot(*np.diff(points, axis=0, append=points[-1:]).T)
-    lengths = np.add.reduceat(steps, starts).tolist()
+    lengths = _kernels.polygon_lengths(
+        [len(piece.control_points) for piece in pieces],
+        np.concatenate([piece.control_points for piece in pieces]),
+    )
     least = DEGENERATE_PART * sum(lengths)
     kept = [p for p, length in zip(pieces, lengths, strict=True) if length > least]
     if len(kept) == len(pieces) or not kept:

@@ -12,6 +12,7 @@ from shapespline.values import SMOOTH_TURN, with_points
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from shapespline.typing import FloatArray
     from shapespline.values import Piece
 
 # Pieces whose directions differ by less, radians, may be made to meet in one tangent exactly: what
@@ -26,9 +27,21 @@ def aligned(pieces: Sequence[Piece], largest_move: float, *, closed: bool) -> tu
     line: that of a straight piece, or the mean direction of two curves. Where that moves one by
     more than ``largest_move``, in data units, the node keeps its small turn.
     """
-    counts = [len(piece.control_points) for piece in pieces]
     points = np.concatenate([piece.control_points for piece in pieces])
+    result = with_points(pieces, points)
+    align(result, points, largest_move, closed=closed)
+    return result
+
+
+def align(
+    pieces: Sequence[Piece], points: FloatArray, largest_move: float, *, closed: bool
+) -> None:
+    """The same in place: the control points of all pieces are those of one row, where they are."""
     _kernels.make_tangents_common(
-        [piece.degree for piece in pieces], counts, points, largest_move, ALIGNED, closed
+        [piece.degree for piece in pieces],
+        [len(piece.control_points) for piece in pieces],
+        points,
+        largest_move,
+        ALIGNED,
+        closed,
     )
-    return with_points(pieces, points)

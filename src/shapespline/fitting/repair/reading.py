@@ -18,9 +18,14 @@ if TYPE_CHECKING:
 
 
 class Reading(NamedTuple):
-    """The canonical order of a contour's points, and whether the data run the other way."""
+    """The canonical order of ``n`` points, by the first and the step to the next.
 
-    order: IntArray
+    ``is_backwards`` tells that the data run the other way.
+    """
+
+    first: int
+    step: int
+    n: int
     is_backwards: bool
 
     @classmethod
@@ -33,8 +38,12 @@ class Reading(NamedTuple):
         start, step = _, direction = canonical_reading(points, closed=closed)
         if weights is not None:
             start, step = canonical_reading(points, closed=closed, weights=weights)
-        order = (start + step * np.arange(len(contour))) % len(contour)
-        return cls(order, direction < 0)
+        return cls(start, step, len(contour), direction < 0)
+
+    @property
+    def order(self) -> IntArray:
+        """Indices of the points in this order."""
+        return (self.first + self.step * np.arange(self.n)) % self.n
 
     def contour(self, contour: Contour) -> Contour:
         """The contour with its points in this order."""
