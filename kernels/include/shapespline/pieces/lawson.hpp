@@ -95,15 +95,14 @@ class LawsonFit {
             if (round > 0 || !started_)
                 solver_.improve(state_, weights_, has_knots_, round < 2 ? 6 : 4, 2e-2);
             if (model_.size() > 1) model_.reassign(state_);
-            double measure = measured();
+            double distance = largest_distance(), measure = measured(distance);
             if (model_.thinned() && measure <= limits_.tolerance) {
                 use_all_data();
-                measure = measured();
+                distance = largest_distance(), measure = measured(distance);
             }
             stalls = measure < 0.995 * best_ ? 0 : stalls + 1;
             if (measure < best_) keep_if_better(measure);
             strays += !kept_ && measure <= limits_.tolerance;
-            const double distance = largest_distance();
             if (kept_ || out_of_reach(round) || stalls >= LawsonStop::kMostStalls ||
                 strays >= limits_.strays || !(distance > 1e-12))
                 break;
@@ -115,8 +114,7 @@ class LawsonFit {
 
   private:
     // The largest distance; a joint that turns too far counts as one just beyond the tolerance.
-    double measured() const {
-        const double distance = largest_distance();
+    double measured(double distance) const {
         const double excess = largest_turn() - (model_.exact() ? kExactTurn : kLargestTurn);
         if (!(excess > 0.0)) return distance;
         return std::max(distance, 1.001 * limits_.tolerance) * (1.0 + 0.02 * excess);
