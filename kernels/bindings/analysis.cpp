@@ -13,6 +13,7 @@
 #include "shapespline/analysis/cpda.hpp"
 #include "shapespline/analysis/cubic_windows.hpp"
 #include "shapespline/analysis/largest_bulge.hpp"
+#include "shapespline/analysis/told_by_others.hpp"
 
 using namespace nb::literals;
 
@@ -69,6 +70,17 @@ void bind_analysis(nb::module_ &m) {
         .def_prop_ro("side", [](const PosedContour &self) { return self.pose.side; })
         .def_prop_ro("scale", [](const PosedContour &self) { return self.pose.scale; })
         .def_ro("apart", &PosedContour::apart);
+
+    m.def(
+        "told_by_others",
+        [](In2 points, InIndices told, InIndices offsets, Array<const double, nb::ndim<2>> rows, In1 noise, Out1 off,
+           Out1 rest) {
+            ss::analysis::told_by_others(vectors(points), indices(told),
+                                         {indices(offsets), {rows.data(), rows.size()}},
+                                         numbers(noise), off.data(), rest.data());
+        },
+        "points"_a.noconvert(), "told"_a.noconvert(), "offsets"_a.noconvert(),
+        "rows"_a.noconvert(), "noise"_a.noconvert(), "off"_a.noconvert(), "rest"_a.noconvert());
 
     m.def(
         "windows_of_seven",

@@ -238,6 +238,15 @@ def eliminated_step(
     damping: float,
     control_step: FloatArray,  # out (m, 2)
 ) -> tuple[bool, float, float]: ...  # solved, predicted decrease, gradient norm
+def told_by_others(
+    points: FloatArray,  # (n, 2)
+    told: IntArray,  # (m,)
+    offsets: IntArray,  # (k,)
+    rows: FloatArray,  # (terms, k)
+    noise: FloatArray,  # (n,)
+    off: FloatArray,  # out (m,)
+    rest: FloatArray,  # out (m,)
+) -> None: ...
 def windows_of_seven(
     points: FloatArray,  # (n, 2)
     closed: bool,

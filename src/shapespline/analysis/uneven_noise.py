@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shapespline import _kernels
 from shapespline.analysis.noise import (
     CHI_SQUARED_MEDIAN,
     FEWEST_POINTS,
@@ -136,6 +137,8 @@ def _off_line(
     """
     off, rest = _told(points, told, offsets, 1, noise)
     again = np.flatnonzero(rest > FITS)
+    if not len(again):
+        return off
     off[again], rest = 0.0, np.full(len(again), FITS)
     for k in range(1, len(offsets)):
         others, one = np.delete(offsets, k), (told[again] + offsets[k]) % len(points)
@@ -159,22 +162,14 @@ def _told(
 
     Both in deviations, the first one with the error of the curve.
     """
-    vander, powers, error = _least_squares(tuple(offsets.tolist()), degree)
-    beside = points[(told[:, None] + offsets) % len(points)]
-    found = np.einsum("ck,ikd->icd", powers, beside)
-    slope, place = found[:, -2], found[:, -1]
-    (x, y), (u, v) = (points[told] - place).T, slope.T
-    speed = np.maximum(np.hypot(u, v), np.finfo(float).tiny)
-    off = np.abs(x * v - y * u) / (speed * error * noise[told])
-    left = beside - np.einsum("kc,icd->ikd", vander, found)
-    across = (left[..., 0] * v[:, None] - left[..., 1] * u[:, None]) / speed[:, None]
-    rest = np.sqrt((across**2).sum(axis=1) / (len(offsets) - degree - 1))
-    return off, rest / noise[told]
+    rows = _least_squares(tuple(offsets.tolist()), degree)
+    off, rest = np.empty(len(told)), np.empty(len(told))
+    _kernels.told_by_others(points, told, offsets, rows, noise, off, rest)
+    return off, rest
 
 
 @cache
-def _least_squares(offsets: tuple[int, ...], degree: int) -> tuple[FloatArray, FloatArray, float]:
-    """Powers of offsets, what they make of places there, and the error between both at 0."""
-    vander = np.vander(np.array(offsets, dtype=float), degree + 1)
-    powers = np.linalg.pinv(vander)
-    return vander, powers, float(np.sqrt(1.0 + (powers[-1] ** 2).sum()))
+def _least_squares(offsets: tuple[int, ...], degree: int) -> FloatArray:
+    """What makes the coefficients of a polynomial of what is at some offsets."""
+    rows = np.linalg.pinv(np.vander(np.array(offsets, dtype=float), degree + 1))
+    return np.ascontiguousarray(rows)
