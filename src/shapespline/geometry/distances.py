@@ -141,5 +141,5 @@ def rounding(curve: BSplineCurve, contour: Contour) -> float:
     """A few units in the last place of the largest coordinate."""
     low, high = contour.box
     points = curve.control_points
-    largest = max(-low.min(), high.max(), -points.min(), points.max())
+    largest = max(-min(low.tolist()), max(high.tolist()), -points.min(), points.max())
     return 8.0 * float(np.finfo(float).eps * largest)

@@ -78,21 +78,22 @@ def fairness_of(
     order = np.argsort(speed, kind="stable")
     weight = np.cumsum(np.repeat(intervals / 64, 64)[order])
     median = float(speed[order][np.searchsorted(weight, 0.5 * weight[-1])])
-    inside = curve.knots[curve.degree : len(curve.knots) - curve.degree]
-    corners = np.array([b for b in breaks if np.count_nonzero(inside == b) >= curve.degree])
+    inside, repeats = curve.knots[curve.degree : -curve.degree], curve.degree - 1
+    corners = inside[repeats:][inside[repeats:] == inside[: len(inside) - repeats]]
     away = np.ones(len(u), dtype=bool)
     width = np.repeat(intervals, 64)
     for corner in corners:
         away &= np.abs(u - corner) > 0.05 * width
     slowest = float(speed[away].min()) if away.any() else median
-    vertices = np.concatenate([curve(u), curve(u[:1] if curve.periodic else breaks[-1:])])
-    if not curve.periodic:
-        vertices = np.concatenate([curve(breaks[:1]), vertices])
+    if curve.periodic:
+        vertices = curve(np.append(u, u[0]))
+    else:
+        vertices = curve(np.concatenate([breaks[:1], u, breaks[-1:]]))
     return Fairness(
         float(intervals.max() / intervals.min()),
         slowest / median if median > 0 else 0.0,
-        _kernels.count_crossings(np.ascontiguousarray(vertices)),
-        _kernels.count_crossings(np.ascontiguousarray(contour.polyline)),
+        _kernels.count_crossings(vertices),
+        _kernels.count_crossings(contour.polyline),
         n_hooks,
         turning(velocity, closed=contour.closed) / data_turning - 1.0,
     )
