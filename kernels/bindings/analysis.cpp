@@ -73,8 +73,8 @@ void bind_analysis(nb::module_ &m) {
 
     m.def(
         "told_by_others",
-        [](In2 points, InIndices told, InIndices offsets, Array<const double, nb::ndim<2>> rows, In1 noise, Out1 off,
-           Out1 rest) {
+        [](In2 points, InIndices told, InIndices offsets, Array<const double, nb::ndim<2>> rows,
+           In1 noise, Out1 off, Out1 rest) {
             ss::analysis::told_by_others(vectors(points), indices(told),
                                          {indices(offsets), {rows.data(), rows.size()}},
                                          numbers(noise), off.data(), rest.data());

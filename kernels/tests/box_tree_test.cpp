@@ -43,3 +43,26 @@ TEST(all_items_near_a_box_are_visited_once) {
         }
     }
 }
+
+TEST(all_pairs_of_items_whose_boxes_meet_are_visited_once) {
+    std::mt19937 random(11);
+    for (const int count : {0, 1, 2, 4, 5, 9, 100}) {
+        const auto vertices = random_walk(random, count + 1);
+        std::vector<Box> boxes(count);
+        const BoxTree tree(count, [&](std::size_t i, Box &box) {
+            boxes[i].include(vertices[i]);
+            boxes[i].include(vertices[i + 1]);
+            box.include(boxes[i]);
+        });
+        std::vector<int> visits(count * count, 0);
+        tree.visit_pairs([&](std::size_t i, std::size_t k) {
+            CHECK(i < k);
+            ++visits[i * count + k];
+        });
+        for (int i = 0; i < count; ++i)
+            for (int k = i + 1; k < count; ++k) {
+                CHECK(visits[i * count + k] <= 1);
+                if (boxes[i].meets(boxes[k])) CHECK(visits[i * count + k] == 1);
+            }
+    }
+}
