@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 from tests.support.shapes import flower, rectangle, wave
 
+from shapespline import _kernels
 from shapespline.analysis.noise import (
     FEWEST_POINTS,
     HALF_WINDOW,
     along_one_direction,
     bends_evenly,
+    left_in_windows,
     left_of_cubics,
     noise_level,
     tells_noise,
@@ -230,3 +232,24 @@ def test_cubics_leave_noise_of_few_points_too():
 
 def test_too_few_points_leave_nothing():
     assert left_of_cubics(Contour([(0, 0), (1, 1), (2, 0), (3, 1)], closed=False)) == 0.0
+
+
+@pytest.mark.parametrize(("closed", "step"), [(True, 1), (False, 1), (True, 5), (False, 3)])
+def test_windows_leave_what_cubics_through_them_do(closed, step):
+    points = np.random.default_rng(2).normal(0, 1, (40, 2))
+    middles = np.arange(0 if closed else HALF_WINDOW, 40 if closed else 40 - HALF_WINDOW)[::step]
+    offsets, expected = np.arange(-HALF_WINDOW, HALF_WINDOW + 1), []
+    for middle in middles:
+        window = points[(middle + offsets) % 40]
+        cubics = np.polynomial.polynomial.polyfit(offsets, window, 3)
+        rest = window - np.polynomial.polynomial.polyval(offsets, cubics).T
+        across = rest @ [cubics[1, 1], -cubics[1, 0]] / np.hypot(*cubics[1])
+        expected.append((across**2).sum())
+    assert left_in_windows(points, closed, step) == pytest.approx(np.array(expected), rel=1e-9)
+
+
+def test_the_direction_of_middle_points_is_a_mean_of_squares():
+    rows = np.random.default_rng(3).normal(0, 1, (2, 30, 8))
+    middle = rows[0, :, HALF_WINDOW + 1] + 1j * rows[1, :, HALF_WINDOW + 1]
+    mean = (middle**2 / np.abs(middle) ** 2).mean()
+    assert complex(*_kernels.left_at_twice_the_angle(rows)) == pytest.approx(mean, abs=1e-15)

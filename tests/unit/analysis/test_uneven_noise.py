@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shapespline.analysis import precisions
-from shapespline.analysis.uneven_noise import LEAST_SURE, SUREST
+from shapespline.analysis.uneven_noise import ACROSS, LEAST_SURE, LINE, PARABOLA, SUREST, _told
 from shapespline.values import Contour
 
 NOISE = 0.05
@@ -112,3 +112,22 @@ def test_few_points_and_exact_ones_tell_nothing():
     points = shaken(square(10), 1)
     assert precisions(Contour(points, closed=True), NOISE) is None
     assert precisions(Contour(square(), closed=True), 0.0) is None
+
+
+@pytest.mark.parametrize(("offsets", "degree"), [(PARABOLA, 2), (LINE, 1), (-LINE, 1), (ACROSS, 1)])
+def test_what_neighbours_tell_is_the_formula(offsets, degree):
+    random = np.random.default_rng(7)
+    points, noise = shaken(square(), 7), random.uniform(0.5, 2.0, 240) * NOISE
+    told = np.sort(random.choice(240, 100, replace=False))
+    vander = np.vander(offsets.astype(float), degree + 1)
+    beside = points[(told[:, None] + offsets) % 240]
+    found = np.einsum("ck,ikd->icd", np.linalg.pinv(vander), beside)
+    (u, v), (x, y) = found[:, -2].T, (points[told] - found[:, -1]).T
+    speed, error = np.hypot(u, v), np.sqrt(1 + (np.linalg.pinv(vander)[-1] ** 2).sum())
+    left = beside - np.einsum("kc,icd->ikd", vander, found)
+    across = (left[..., 0] * v[:, None] - left[..., 1] * u[:, None]) / speed[:, None]
+    free = len(offsets) - degree - 1
+    off, rest = _told(points, told, offsets, degree, noise)
+    # Sums of six coordinates up to 20, differences over deviations of a fortieth.
+    assert off == pytest.approx(np.abs(x * v - y * u) / (speed * error * noise[told]), abs=1e-9)
+    assert rest == pytest.approx(np.sqrt((across**2).sum(axis=1) / free) / noise[told], abs=1e-9)

@@ -1,10 +1,14 @@
 """Pieces as one B-spline: the same curve, the right knots."""
 
+from itertools import pairwise
+from math import comb, dist
+
 import numpy as np
 import pytest
 from scipy.interpolate import BSpline
-from tests.support.pieces import CUBIC, LINE, QUADRATIC, piece
+from tests.support.pieces import CUBIC, LINE, QUADRATIC, bezier, piece
 
+from shapespline import _kernels
 from shapespline.geometry.joining import elevated, joined
 
 
@@ -94,3 +98,29 @@ def test_no_piece_rushes_past(leg):
     assert np.diff(breaks).min() > 0.003
     # Only where the next control point is near is the joint a full knot.
     assert counts[1] == (2 if leg > 1 else 3)
+
+
+@pytest.mark.parametrize("p", [1, 2, 3, 6])
+@pytest.mark.parametrize("degree", [3, 6, 9])
+def test_elevation_of_a_bezier_is_the_formula(p, degree):
+    if p >= degree:
+        return
+    points = np.random.default_rng(p).normal(0, 5, (p + 1, 2))
+    shares = [
+        [
+            comb(p, j) * comb(degree - p, i - j) / comb(degree, i) if i >= j else 0
+            for j in range(p + 1)
+        ]
+        for i in range(degree + 1)
+    ]
+    # Means of up to seven numbers about 5.
+    assert elevated(bezier(*points), degree).control_points == pytest.approx(
+        np.array(shares) @ points, abs=1e-13
+    )
+
+
+def test_polygons_are_as_long_as_python_says():
+    rows = [np.random.default_rng(n).normal(0, 10, (n, 2)) for n in (2, 3, 4, 9)]
+    found = _kernels.polygon_lengths([len(row) for row in rows], np.concatenate(rows))
+    expected = [sum(dist(*step) for step in pairwise(row.tolist())) for row in rows]
+    assert found == pytest.approx(expected, rel=1e-15)

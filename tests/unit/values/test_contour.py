@@ -214,3 +214,12 @@ def test_accuracy_is_carried_and_checked():
     for wrong in (-1.0, np.inf, np.nan, "fine"):
         with pytest.raises(InvalidInputError, match="accuracy must be a length"):
             Contour([(0, 0), (1, 0)], accuracy=wrong)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_arc_length_is_the_sum_of_the_steps(closed):
+    contour = Contour(np.random.default_rng(1).normal(0, 9, (50, 2)), closed)
+    steps = np.hypot(*np.diff(contour.polyline, axis=0).T)
+    assert contour.arc_length.tolist() == [0.0, *np.cumsum(steps).tolist()]
+    assert contour.box[0].tolist() == contour.points.min(axis=0).tolist()
+    assert contour.box[1].tolist() == contour.points.max(axis=0).tolist()
