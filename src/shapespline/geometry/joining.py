@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shapespline import _kernels
+from shapespline.errors import InvalidInputError
 from shapespline.values import EXACT_TURN, BSplineCurve, Piece
 
 if TYPE_CHECKING:
@@ -75,16 +76,17 @@ def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
     """
     if degree is None:
         degree = max(piece.degree for piece in pieces)
+    for piece in pieces:
+        _check(piece, degree)
     row = [
         piece if len(piece.control_points) == piece.degree + 1 else elevated(piece, degree)
         for piece in pieces
     ]
-    counts = [len(piece.control_points) for piece in row]
     found = _kernels.JoinedPieces(
         [piece.degree for piece in row],
-        counts,
-        np.concatenate([piece.knots for piece in row]),
-        np.concatenate([piece.control_points for piece in row]),
+        [len(piece.control_points) for piece in row],
+        np.concatenate([piece.knots for piece in row], dtype=np.float64),
+        np.concatenate([piece.control_points for piece in row], dtype=np.float64),
         degree,
         EXACT_TURN,
     )
@@ -92,6 +94,17 @@ def joined(pieces: Sequence[Piece], degree: int | None = None) -> BSplineCurve:
     knots = np.empty(len(points) + degree + 1)
     found.write(knots, points)
     return BSplineCurve(knots, points, degree)
+
+
+def _check(piece: Piece, degree: int) -> None:
+    """Raise unless the knots of a piece, which a file may hold, are as many as it needs."""
+    n = len(piece.control_points)
+    if not (1 <= piece.degree <= min(degree, n - 1) and len(piece.knots) == n + piece.degree + 1):
+        raise InvalidInputError(
+            f"pieces must have a degree of 1 to {degree}, more control points than that and as many"
+            f" knots as both and one, got degree {piece.degree}, {n} control points and"
+            f" {len(piece.knots)} knots"
+        )
 
 
 def elevated(piece: Piece, degree: int) -> Piece:
@@ -106,7 +119,9 @@ def elevated(piece: Piece, degree: int) -> Piece:
     if len(piece.control_points) == p + 1:
         knots = np.repeat(piece.knots[[0, -1]], degree + 1)
         points = np.empty((degree + 1, 2))
-        _kernels.elevated(piece.control_points, degree, points)
+        _kernels.elevated(
+            np.ascontiguousarray(piece.control_points, dtype=np.float64), degree, points
+        )
         return Piece("bezier", degree, knots, points)
     breakpoints, counts = np.unique(piece.knots, return_counts=True)
     knots = np.repeat(breakpoints, counts + degree - p)

@@ -9,6 +9,7 @@ from scipy.interpolate import BSpline
 from tests.support.pieces import CUBIC, LINE, QUADRATIC, bezier, piece
 
 from shapespline import _kernels
+from shapespline.errors import InvalidInputError
 from shapespline.geometry.joining import elevated, joined
 
 
@@ -124,3 +125,17 @@ def test_polygons_are_as_long_as_python_says():
     found = _kernels.polygon_lengths([len(row) for row in rows], np.concatenate(rows))
     expected = [sum(dist(*step) for step in pairwise(row.tolist())) for row in rows]
     assert found == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        bezier((0, 0), (1, 0), (2, 1), (3, 3), (4, 0)),
+        bezier((0, 0), (1, 0))._replace(degree=3, knots=np.arange(6.0)),
+        bezier((0, 0), (1, 0))._replace(knots=np.arange(3.0)),
+        bezier((0, 0), (1, 0))._replace(degree=0, knots=np.arange(3.0)),
+    ],
+)
+def test_pieces_whose_knots_do_not_fit_are_refused(wrong):
+    with pytest.raises(InvalidInputError, match="pieces must have a degree of 1 to 3"):
+        joined([bezier((0, 0), (0, 0)), wrong], 3)
