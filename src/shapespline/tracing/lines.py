@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import compress, pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -10,12 +11,21 @@ from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
 from shapespline.tracing.dots import dotted
 from shapespline.tracing.edges import NOISIEST, drawn_shares, level_shares, no_edges
-from shapespline.tracing.grain import averaged, squarely
+from shapespline.tracing.grain import without_grain
 from shapespline.tracing.inks import inks_of, moved_to_own
+from shapespline.tracing.one_bit import (
+    ONE_BIT_ACCURACY,
+    RAGGED_SCATTER,
+    are_ragged,
+    is_one_bit,
+    with_corners_of_bits,
+)
 from shapespline.tracing.roundings import rounded
 from shapespline.tracing.softness import Softness
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from shapespline.monitor import Say
     from shapespline.tracing.crossings import Crossings
     from shapespline.tracing.field import Field
@@ -28,12 +38,11 @@ SAME_POINT = 1e-3
 LEAST_ACROSS, FEW_POINTS = 0.65, 12
 # Crossings on either side between which an edge has its direction.
 CHORD = 2
-# Pixels, root mean square over traced glyphs and icons whose outlines are known: where the grey
-# tells the edge, and where there is no grey.
-DRAWN_ACCURACY, ONE_BIT_ACCURACY = 0.02, 0.25
-# Part of an outline's points that have to be of a kind for it to be of that kind; steps of one
-# pixel that a drawing of edges along rows and columns has at most.
-MOST, FEW_STEPS = 0.5, 4
+# Pixels, root mean square over traced glyphs and icons whose outlines are known, where the grey
+# tells the edge.
+DRAWN_ACCURACY = 0.02
+# Part of an outline's points of which the grey has to tell the place for it to do so.
+MOST = 0.5
 
 
 class Line(NamedTuple):
@@ -69,11 +78,11 @@ def drawn_lines(
     # Edges that blur or noise alone leave on the level line have corners, too (TRC-20).
     on_level_too = soft.shows_corners(field.noise)
     drawn = max(DRAWN_ACCURACY, soft.coarseness)
+    each = _slices(lengths)
+    of_bits = [is_one_bit(midway[own], part.upright[own], ~at_rim[own]) for own in each]
+    ragged = are_ragged((places_drawn[own], part.upright[own]) for own in compress(each, of_bits))
     outlines, level_lines, accuracies, cornered = [], [], [], []
-    begin = 0
-    for loop, ink in zip(loops, inks.tolist(), strict=True):
-        own = slice(begin, begin + len(loop))
-        begin += len(loop)
+    for loop, own, ink, one_bit in zip(loops, each, inks.tolist(), of_bits, strict=True):
         across = _across(places[loop], part.upright[own])
         level_line = distinct(_with_rim_corners(places[loop], height, width))
         inner = ~at_rim[own]
@@ -81,18 +90,16 @@ def drawn_lines(
         # Without an inner crossing it is the rim alone.
         known = not inner.any() or _is_known(edges.known[own][inner], across[inner])
         accuracy = drawn if known else soft.accuracy
-        one_bit = _is_one_bit(midway[own][inner], upright[inner])
         if one_bit:
             accuracy = ONE_BIT_ACCURACY
         points = places_drawn[own]
-        if soft.grainy and not one_bit:
-            told = squarely(points, upright) | ~inner
-            points = averaged(points[told], soft.scatter / ink, ~inner[told])
-            points = np.clip(points, 0, (width, height))
+        if ragged if one_bit else soft.grainy:
+            scatter = RAGGED_SCATTER if one_bit else soft.scatter / ink
+            points = without_grain(points, upright, scatter, ~inner)
         elif len(loop) >= FEW_POINTS and (accuracy == drawn or (soft.on_level and ink != 1.0)):
             told = (across >= LEAST_ACROSS) | ~inner
-            points = _bent(points[told], part.upright[own][told], edges.known[own][told])
-            points = np.clip(points, 0, (width, height))
+            points = _bent(points[told], upright[told], edges.known[own][told])
+        points = np.clip(points, 0, (width, height))
         points = distinct(_with_rim_corners(points, height, width))
         outlines.append(points if len(points) >= 3 else level_line)
         level_lines.append(level_line)
@@ -100,6 +107,8 @@ def drawn_lines(
         cornered.append(not one_bit and (known or on_level_too))
     say(f"looking for the corners of {len(outlines)} outlines")
     outlines = sharpened(outlines, level_lines, cornered, field, soft, inks)
+    if ragged:
+        outlines = with_corners_of_bits(outlines, level_lines, of_bits)
     if not soft.blur:
         outlines = rounded(outlines, cornered, field, inks)
         if field.noise <= NOISIEST:
@@ -107,6 +116,12 @@ def drawn_lines(
             accuracies = np.where(dots, DRAWN_ACCURACY, accuracies).tolist()
     outlines = [np.clip(points, 0, (width, height)) for points in outlines]
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
+
+
+def _slices(lengths: Sequence[int]) -> list[slice]:
+    """Where each of some rows lies if they come one after the other."""
+    ends = np.cumsum([0, *lengths]).tolist()
+    return [slice(first, last) for first, last in pairwise(ends)]
 
 
 def _across(places: FloatArray, upright: BoolArray) -> FloatArray:
@@ -137,16 +152,6 @@ def _is_known(known: BoolArray, across: FloatArray) -> bool:
     """Whether the grey tells where most of an outline lies."""
     told = across >= LEAST_ACROSS
     return bool(told.any() and known[told].mean() > MOST)
-
-
-def _is_one_bit(midway: BoolArray, upright: BoolArray) -> bool:
-    """Whether an outline is that of a picture of one bit: steps of a pixel without grey.
-
-    Edges along rows and columns without grey may lie on the lines between pixels.
-    """
-    turns = upright != np.roll(upright, 1)
-    steps = turns & np.roll(turns, -1) & midway
-    return bool(len(midway) and midway.mean() > MOST and steps.sum() >= FEW_STEPS)
 
 
 def _with_rim_corners(points: FloatArray, height: int, width: int) -> FloatArray:

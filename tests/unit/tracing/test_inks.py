@@ -79,3 +79,12 @@ def test_one_ink_is_left_as_it_is():
     assert (inks == 1.0).all()
     shares = np.full(len(part.row), 0.25)
     assert (moved_to_own(field, part, shares, np.ones(len(shares))) == 0.25).all()
+
+
+def test_inks_that_differ_little_are_told_among_grain():
+    """The strength of an ink is known to what noise leaves of the mean, not to that of a pixel."""
+    shape = trace(seen(1.0, dark=75.0, grain=8.0), min_area=20)
+    for middle, (radius, _) in DISCS.items():
+        (found,) = radii(shape, middle)
+        flat = np.sqrt(2 * np.pi * (1 + 1 / 12)) / 120.0
+        assert found == pytest.approx(radius - 1 / (2 * radius), abs=3 * 8.0 * flat / np.sqrt(100))
