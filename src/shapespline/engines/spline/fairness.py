@@ -78,8 +78,9 @@ def fairness_of(
     order = np.argsort(speed, kind="stable")
     weight = np.cumsum(np.repeat(intervals / 64, 64)[order])
     median = float(speed[order][np.searchsorted(weight, 0.5 * weight[-1])])
-    inside, repeats = curve.knots[curve.degree : -curve.degree], curve.degree - 1
-    corners = inside[repeats:][inside[repeats:] == inside[: len(inside) - repeats]]
+    inside = curve.knots[curve.degree : -curve.degree]
+    later = inside[curve.degree - 1 :]
+    corners = later[later == inside[: len(later)]]
     away = np.ones(len(u), dtype=bool)
     width = np.repeat(intervals, 64)
     for corner in corners:

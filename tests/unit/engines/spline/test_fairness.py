@@ -5,6 +5,7 @@ import pytest
 from tests.support.make_fit import blob, wave
 from tests.support.shapes import flower
 
+import shapespline as ss
 from checks import interval_ratio, polyline_of, self_crossings, speed_ratio
 from shapespline.engines.spline import Fairness, fairness_of
 from shapespline.engines.spline.fairness import INTERVAL_RATIO, SPEED_RATIO
@@ -55,3 +56,22 @@ def test_a_near_cusp_is_not_fair_and_a_corner_is_no_cusp():
 )
 def test_the_rule(fairness, kept):
     assert fairness.kept is kept
+
+
+@pytest.mark.parametrize("degree", range(1, 10))
+def test_a_curve_of_one_span_is_as_fair_as_any(degree):
+    """It has fewer knots than a corner inside a curve of that degree takes."""
+    x = np.linspace(0.0, 1.0, degree + 1)
+    points = np.column_stack([x, 0 * x])
+    curve = BSplineCurve(np.repeat([0.0, 1.0], degree + 1), points, degree)
+    found = fairness_of(curve, Contour(np.column_stack([x, 0 * x]), closed=False))
+    assert found.speed_ratio == pytest.approx(1.0)
+    assert found.n_crossings == 0
+
+
+def test_an_open_path_that_ends_where_it_began_is_fitted_by_one_span():
+    path = np.array([(0.0, 0.0), (0.0, 1.0), (2.0, 0.0), (0.0, 0.0)])
+    fit = ss.fit_curve(
+        path, closed=False, tolerance=0.005 * 5**0.5, effort="fast", degree=5, corners="free"
+    )
+    assert fit.kept
