@@ -14,7 +14,7 @@ from shapespline import Contour, InvalidInputError, Status, fit_curve
 
 
 def wavy(n=6000):
-    """A closed outline with many features: seconds of work at a small tolerance."""
+    """A closed outline with many features: half a second of work at a small tolerance."""
     t = 2 * np.pi * np.arange(n) / n
     r = 10 + np.sin(37 * t) + 0.3 * np.cos(101 * t)
     return Contour(np.column_stack([r * np.cos(t), r * np.sin(t)]), closed=True)
@@ -62,10 +62,10 @@ def test_a_true_answer_cancels_and_the_result_keeps_the_promise(form, after):
 @pytest.mark.slow
 def test_a_time_limit_ends_the_search_with_what_there_is(form):
     begin = time.monotonic()
-    fit = fit_curve(wavy(), tolerance=0.005, form=form, effort="smallest", time_limit=0.4)
+    fit = fit_curve(wavy(), tolerance=0.005, form=form, effort="smallest", time_limit=0.1)
     seconds = time.monotonic() - begin
     assert fit.status == Status.BUDGET
-    assert "time limit of 0.4 s ran out" in fit.status.value
+    assert "time limit of 0.1 s ran out" in fit.status.value
     assert fit.kept
     assert_promise(fit)
     # What comes on top, verifying above all, takes a second or two on a busy machine.
