@@ -29,6 +29,8 @@ BESIDE = 64
 PAPER, INKS = (247, 244, 236), ((200, 40, 30), (30, 42, 68))
 # Of drawings that fill their picture.
 CUT = "cut to the ink"
+# Of pictures of one bit.
+BITS = "black and white"
 
 
 class MissingError(Exception):
@@ -89,6 +91,12 @@ def scanned(outlines: Sequence[Outline], size: int, blur: float, grain: float) -
     sharp = 20 + 0.8 * exact(outlines, size).astype(float)
     noise = np.random.default_rng(1).normal(0.0, grain, sharp.shape)
     return np.rint(np.clip(gaussian_filter(sharp, blur) + noise, 0, 255)).astype(np.uint8)
+
+
+def bits(picture: Picture) -> Picture:
+    """Cut half-way between its ink and its ground."""
+    half = 0.5 * (float(np.quantile(picture, 0.02)) + float(np.quantile(picture, 0.98)))
+    return np.where(picture > half, 255, 0).astype(np.uint8)
 
 
 def printed(outlines: Sequence[Outline], size: int) -> Picture:
@@ -254,6 +262,11 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "blurred by 1.5": lambda outlines, size: scanned(outlines, size, blur=1.5, grain=0.5),
     "scanned, JPEG 90": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.0, grain=8.0)),
     "badly scanned": lambda outlines, size: jpeg(scanned(outlines, size, blur=1.2, grain=12.0)),
+    BITS: lambda outlines, size: bits(exact(outlines, size)),
+    f"scanned, {BITS}": lambda outlines, size: bits(scanned(outlines, size, blur=1.0, grain=8.0)),
+    f"badly scanned, {BITS}": lambda outlines, size: bits(
+        scanned(outlines, size, blur=1.2, grain=14.0)
+    ),
     CUT: exact,
     f"{CUT}, JPEG 90": lambda outlines, size: jpeg(exact(outlines, size)),
     f"{CUT}, scanned, JPEG 90": lambda outlines, size: jpeg(

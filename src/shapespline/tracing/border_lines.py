@@ -14,7 +14,7 @@ import numpy as np
 from shapespline.tracing.borders import OUTSIDE
 from shapespline.tracing.corners import missing_around, put_back
 from shapespline.tracing.coverage import border_coverage
-from shapespline.tracing.grain import CHORD, averaged, squarely
+from shapespline.tracing.grain import CHORD, without_grain
 from shapespline.tracing.lines import DRAWN_ACCURACY, MOST, Line
 
 if TYPE_CHECKING:
@@ -71,11 +71,9 @@ def _averaged(
     nodes = found.borders.nodes
     stay = path >= len(nodes.row)
     upright = nodes.upright[np.where(stay, 0, path)]
-    used = squarely(line, upright) | stay
-    if not arc.is_ring:
-        used[:CHORD] = used[-CHORD:] = True
-        stay[[0, -1]] = True
-    return averaged(line[used], scatter, stay[used])
+    if not arc.is_ring:  # beside its ends it has no direction across them
+        stay[:CHORD] = stay[-CHORD:] = True
+    return without_grain(line, upright, scatter, stay)
 
 
 def _noise(seen: Seen, arc: Arc) -> float:

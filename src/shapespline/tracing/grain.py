@@ -22,28 +22,34 @@ WINDOWS, DEGREE = (2, 4, 8, 16), 2
 # Windows scatter by no more of their deviations, and differ from smaller ones by no more, than
 # noise lets them (TRC-44).
 SCATTERS, DIFFERS = 4.0, 4.0
-# Crossings on either side, averaged by threes, between which a shaken edge has its direction; those
-# of rows and columns that it passes this squarely tell its place (TRC-44).
-CHORD, LEAST_ACROSS = 5, 0.65
+# Where rows pass an edge more squarely than columns, their crossings tell its place, and those of
+# the columns only lie between them; nearly at 45 degrees both do. Crossings on either side,
+# averaged by threes, between which a shaken edge has its direction (TRC-44).
+LEAST_ACROSS, CHORD = 0.65, 5
 # Points whose windows are looked at together.
 TOGETHER = 20_000
 
 
-def squarely(points: FloatArray, upright: BoolArray) -> BoolArray:
-    """Which crossings of a shaken outline lie in rows or columns that it passes squarely.
+def squareness(points: FloatArray, upright: BoolArray, chord: int) -> FloatArray:
+    """How squarely a closed outline passes the row or column of each crossing, 0 to 1.
 
     Parameters
     ----------
     points : ndarray, shape (n, 2)
-        Closed.
     upright : ndarray of bool, shape (n,)
         Which of them lie in columns.
+    chord : int
+        Crossings on either side between which the outline has its direction.
     """
+    along = np.roll(points, -chord, axis=0) - np.roll(points, chord, axis=0)
+    length = np.maximum(np.hypot(along[:, 0], along[:, 1]), 1e-12)
+    return np.asarray(np.abs(np.where(upright, along[:, 0], along[:, 1])) / length)
+
+
+def squarely(points: FloatArray, upright: BoolArray) -> BoolArray:
+    """Which crossings of a shaken outline lie in rows or columns that tell its place."""
     even = (np.roll(points, 1, axis=0) + points + np.roll(points, -1, axis=0)) / 3
-    chord = np.roll(even, -CHORD, axis=0) - np.roll(even, CHORD, axis=0)
-    length = np.maximum(np.hypot(chord[:, 0], chord[:, 1]), 1e-12)
-    across = np.abs(np.where(upright, chord[:, 0], chord[:, 1])) / length
-    return np.asarray(across >= LEAST_ACROSS)
+    return squareness(even, upright, CHORD) >= LEAST_ACROSS
 
 
 def without_grain(

@@ -11,7 +11,7 @@ from shapespline.monitor import silent
 from shapespline.tracing.corners import sharpened
 from shapespline.tracing.dots import dotted
 from shapespline.tracing.edges import NOISIEST, drawn_shares, level_shares, no_edges
-from shapespline.tracing.grain import without_grain
+from shapespline.tracing.grain import LEAST_ACROSS, squareness, without_grain
 from shapespline.tracing.inks import inks_of, moved_to_own
 from shapespline.tracing.one_bit import (
     ONE_BIT_ACCURACY,
@@ -33,9 +33,8 @@ if TYPE_CHECKING:
 
 # Two points closer than this (pixels) surround one pixel centre: one is enough.
 SAME_POINT = 1e-3
-# Where rows pass an edge more squarely than columns, their crossings tell its place, and those of
-# the columns only lie between them; nearly at 45 degrees both do. Outlines of few points keep all.
-LEAST_ACROSS, FEW_POINTS = 0.65, 12
+# Outlines of fewer points keep all crossings.
+FEW_POINTS = 12
 # Crossings on either side between which an edge has its direction.
 CHORD = 2
 # Pixels, root mean square over traced glyphs and icons whose outlines are known, where the grey
@@ -83,10 +82,9 @@ def drawn_lines(
     ragged = are_ragged((places_drawn[own], part.upright[own]) for own in compress(each, of_bits))
     outlines, level_lines, accuracies, cornered = [], [], [], []
     for loop, own, ink, one_bit in zip(loops, each, inks.tolist(), of_bits, strict=True):
-        across = _across(places[loop], part.upright[own])
+        upright, inner = part.upright[own], ~at_rim[own]
+        across = squareness(places[loop], upright, CHORD)
         level_line = distinct(_with_rim_corners(places[loop], height, width))
-        inner = ~at_rim[own]
-        upright = part.upright[own]
         # Without an inner crossing it is the rim alone.
         known = not inner.any() or _is_known(edges.known[own][inner], across[inner])
         accuracy = drawn if known else soft.accuracy
@@ -122,13 +120,6 @@ def _slices(lengths: Sequence[int]) -> list[slice]:
     """Where each of some rows lies if they come one after the other."""
     ends = np.cumsum([0, *lengths]).tolist()
     return [slice(first, last) for first, last in pairwise(ends)]
-
-
-def _across(places: FloatArray, upright: BoolArray) -> FloatArray:
-    """How squarely an outline passes the row or column of each crossing, 0 to 1."""
-    chords = np.roll(places, -CHORD, axis=0) - np.roll(places, CHORD, axis=0)
-    length = np.maximum(np.hypot(chords[:, 0], chords[:, 1]), 1e-12)
-    return np.abs(np.where(upright, chords[:, 0], chords[:, 1])) / length
 
 
 def _bent(points: FloatArray, upright: BoolArray, known: BoolArray) -> FloatArray:

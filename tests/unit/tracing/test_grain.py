@@ -168,6 +168,12 @@ def test_areas_of_grainy_colours_share_even_borders():
     rng = np.random.default_rng(4)
     picture = gaussian_filter(picture, (1.2, 1.2, 0)) + rng.normal(0, 10, picture.shape)
     shape = trace(np.rint(np.clip(picture, 0, 255)).astype(np.uint8), colors=3)
+    # The border of both inks is one, to the bit, from junction to junction.
+    rows = [{tuple(point) for point in contour.points.tolist()} for contour in shape]
+    shared = [one & other for k, one in enumerate(rows) for other in rows[k + 1 :]]
+    between = np.array([point for both in shared for point in both if abs(point[0] - 60) < 1.5])
+    assert len(between) > 40
+    assert np.ptp(between[:, 1]) == pytest.approx(70.0, abs=2.0)
     edges = np.array([20.0, 60.0, 95.0])
     offs = []
     for contour in shape:

@@ -14,7 +14,7 @@ from shapespline.tracing import trace
 from shapespline.tracing.layer import Layer
 from shapespline.tracing.level import otsu_split, picture_level
 from shapespline.tracing.outlines import nesting
-from shapespline.tracing.pixels import pixel_values
+from shapespline.tracing.pixels import colour_distance, pixel_values
 from shapespline.values.view_box import ViewBox
 
 LEAST_SPACING = 1e-3  # pixels; closer points are merged
@@ -331,5 +331,7 @@ def test_a_coloured_ground_under_grain_is_nothing():
     assert abs(np.median(values.values[:][~inside])) < np.sqrt(0.14 * 0.789 * 10.0**2)
     contrast = np.sqrt(((ink - paper) ** 2).mean())
     assert np.median(values.values[:][inside]) == pytest.approx(contrast, abs=1.0)
+    own = colour_distance(picture, "rgb(190, 40, 50)")[:]
+    assert abs(np.median(own[inside])) < np.sqrt(0.14 * 0.789 * 10.0**2)
     plain = np.rint(np.where(inside[..., None], ink, paper)).astype(np.uint8)
     assert (pixel_values(plain, "auto", lightness=False).values[:][~inside] == 0.0).all()
