@@ -22,6 +22,7 @@ import tempfile
 import time
 import warnings
 from concurrent.futures import ProcessPoolExecutor
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -250,14 +251,14 @@ def small_outlines() -> None:
         kinds = ("glyphs", "icons")
         contours = [o.contour for o in large_corpus() if o.category in kinds and o.contour.closed]
     print(f"\n## Many small outlines: {len(contours)} glyphs and icons, tolerance 0.5 %\n")
-    print("| points each | effort | median, ms | a second, one core | with two processes | ratio |")
-    print("|---|---|---|---|---|---|")
+    heads = ("points each", "effort", "character", "median, ms", "a second, one core")
+    print(f"| {' | '.join(heads)} | with two processes | ratio |\n|---|---|---|---|---|---|---|")
     for count in (None, 200):
         given = [c if count is None else c.resampled(min(count, len(c))) for c in contours] * (
             1 if count is None else 4
         )
-        for effort in ("balanced", "fast"):
-            options = {"tolerance": "0.5%", "effort": effort}
+        for effort, character in product(("balanced", "fast"), ("fewest", "drawn")):
+            options = {"tolerance": "0.5%", "effort": effort, "character": character}
             ss.fit_many(given[:5], **options)
             each = 1e3 * statistics.median(
                 median_of(lambda c=c, o=options: ss.fit_curve(c, **o), 1) for c in given
@@ -270,7 +271,8 @@ def small_outlines() -> None:
                 )
             mean = np.mean([len(c) for c in given])
             print(
-                f"| {mean:.0f} | {effort} | {each:.1f} | {one:.0f} | {two:.0f} | {two / one:.2f} |"
+                f"| {mean:.0f} | {effort} | {character} | {each:.1f} | {one:.0f} | {two:.0f}"
+                f" | {two / one:.2f} |"
             )
 
 

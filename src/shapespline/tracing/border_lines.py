@@ -14,7 +14,7 @@ import numpy as np
 from shapespline.tracing.borders import OUTSIDE
 from shapespline.tracing.corners import missing_around, put_back
 from shapespline.tracing.coverage import border_coverage
-from shapespline.tracing.grain import CHORD, without_grain
+from shapespline.tracing.grain import without_grain
 from shapespline.tracing.lines import DRAWN_ACCURACY, MOST, Line
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def drawn_borders(seen: Seen, found: Bordering) -> list[Line]:
         levels.append(found.places.level[path])
         at_rim = OUTSIDE in (arc.left, arc.right)
         if soft.grainy and not at_rim:
-            line = _averaged(line, path, soft.scattered_by(_noise(seen, arc)), found, arc)
+            line = _averaged(line, path, soft.scattered_by(_noise(seen, arc)), found.borders)
         lines.append(line)
         known = at_rim or bool(found.places.known[path].mean() > MOST)
         certain.append(not at_rim and (known or soft.shows_corners(_noise(seen, arc))))
@@ -64,15 +64,10 @@ def drawn_borders(seen: Seen, found: Bordering) -> list[Line]:
     return [Line(*line) for line in zip(points, levels, accuracies, strict=True)]
 
 
-def _averaged(
-    line: FloatArray, path: IntArray, scatter: float, found: Bordering, arc: Arc
-) -> FloatArray:
-    """Without most of its noise; junctions, and the ends of what is open, stay."""
-    nodes = found.borders.nodes
-    stay = path >= len(nodes.row)
-    upright = nodes.upright[np.where(stay, 0, path)]
-    if not arc.is_ring:  # beside its ends it has no direction across them
-        stay[:CHORD] = stay[-CHORD:] = True
+def _averaged(line: FloatArray, path: IntArray, scatter: float, borders: Borders) -> FloatArray:
+    """Without most of its noise; junctions stay, at which what is open ends."""
+    stay = path >= len(borders.nodes.row)
+    upright = borders.nodes.upright[np.where(stay, 0, path)]
     return without_grain(line, upright, scatter, stay)
 
 

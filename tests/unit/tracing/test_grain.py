@@ -204,7 +204,7 @@ def test_arcs_on_long_sides_are_no_lines():
     tips = np.array([(47.0, -60 + np.sqrt(130**2 - 13**2)), (73.0, -60 + np.sqrt(130**2 - 13**2))])
     out = []
     for seed in range(12):
-        contour = trace(scanned(inside, 1.0, 4.0, seed=seed), min_area=20).longest
+        contour = trace(scanned(inside, 1.0, 10.0, seed=seed), min_area=20).longest
         near = contour.points[cKDTree(contour.points).query(tips)[1]]
         out.append(near[:, 1] - tips[:, 1])
     assert abs(np.mean(out)) < 0.15

@@ -79,3 +79,8 @@ def test_higher_steps_are_no_grain():
     comb = np.zeros(400)
     comb[::8] = 2
     assert not are_ragged([columns(comb)])
+
+
+def test_a_saw_of_single_pixels_was_drawn():
+    """Grain lets pixels stick out of rows that go on; a saw has none."""
+    assert not are_ragged([columns(np.arange(400) % 2)])

@@ -75,3 +75,17 @@ def test_an_open_path_that_ends_where_it_began_is_fitted_by_one_span():
         path, closed=False, tolerance=0.005 * 5**0.5, effort="fast", degree=5, corners="free"
     )
     assert fit.kept
+
+
+def test_a_curve_may_be_slow_into_its_own_corners():
+    """Two cubics, each at rest where they meet: beyond a twentieth of each they are 0.29 fast."""
+    arm = np.array([0.0, 0.0, 1.0, 2.0])
+    points = np.concatenate(
+        [np.column_stack([arm[::-1], 0 * arm]), np.column_stack([0 * arm, arm])[1:]]
+    )
+    knots = np.repeat([0.0, 0.5, 1.0], [4, 3, 4])
+    data = np.array([(2.0, 0.0), (0.0, 0.0), (0.0, 2.0)])
+    found = fairness_of(BSplineCurve(knots, points, 3), Contour(data, closed=False))
+    t = (np.arange(64) + 0.5) / 64
+    speed = 6 * t * (1 - t) + 3 * t**2
+    assert found.speed_ratio == pytest.approx(speed[t > 0.05].min() / np.median(speed), rel=0.02)
