@@ -22,6 +22,7 @@ from shapespline.engines.drawn.judgement import (
     tell_by_direction,
     without_few,
 )
+from shapespline.engines.drawn.missed_arcs import rows_with_missed_arcs
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn
@@ -43,7 +44,7 @@ from shapespline.engines.drawn.supposed import drifting, suppositions, unsure
 from shapespline.engines.drawn.whole_circle import whole_circle
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable
+    from collections.abc import Callable, Collection, Iterable, Iterator
 
     from shapespline.engines.drawn.segments import Segment
     from shapespline.engines.drawn.supposed import Supposition
@@ -293,13 +294,13 @@ def _of_row(
     best = estimated(model, model.row, tolerance)
     if best is not None and estimating:
         best = settled(best, tolerance)
-    for filleted in () if seen.pixel else rows_with_fillets(model, estimating=estimating):
-        other = estimated(model, filleted, tolerance)
+    for with_arcs in _with_arcs(model, best, estimating=estimating, whole=whole):
+        other = estimated(model, with_arcs, tolerance)
         if other is not None:
-            as_it_is = other.model.row is filleted
+            as_it_is = other.model.row is with_arcs
             if estimating:
                 other = settled(other, tolerance)
-            best = other if best is None or (as_it_is and _is_cheaper(other, best)) else best
+            best = other if _is_taken(other, best, as_it_is=as_it_is) else best
     if best is not None:
         best = settled(best, tolerance)
     as_read = best is not None and best.model.row is model.row
@@ -319,6 +320,31 @@ def _of_row(
         # Within a tolerance curves of fewer points may do.
         best = best._replace(told=bool(np.isinf(tolerance)))
     return None if whole and not as_read else begun(best, tolerance)
+
+
+def _with_arcs(
+    model: Model, best: Estimated | None, *, estimating: bool, whole: bool
+) -> Iterator[Segments]:
+    """Rows with arcs that the model's has not, whose estimate is known.
+
+    None of a picture's row that is to hold as a ``whole``.
+    """
+    if not model.seen.pixel:
+        yield from rows_with_fillets(model, estimating=estimating)
+    elif not whole:
+        holds = best is not None and best.model.row is model.row
+        yield from rows_with_missed_arcs(model, holds=holds)
+
+
+def _is_taken(other: Estimated, best: Estimated | None, *, as_it_is: bool) -> bool:
+    """Whether a row with more arcs is: ``as_it_is``, or what is left if nothing else is known.
+
+    What is left in a picture is, instead of another rest, if both tell of a drawing.
+    """
+    if best is None:
+        return True
+    rests = bool(other.model.seen.pixel) and best.told and other.told
+    return (as_it_is or rests) and _is_cheaper(other, best)
 
 
 def _cheapest(best: Estimated, row: Segments) -> Estimated:

@@ -109,7 +109,7 @@ def _at_nodes(
     model: Model, reach: float, tolerance: float, *, each_alone: bool
 ) -> Iterator[tuple[float, int]]:
     """Elements whose nodes are not where their data end, and by how much."""
-    seen, sigma, n = model.seen, model.seen.largest_deviation, len(model.row.found)
+    seen, n = model.seen, len(model.row.found)
     gap = GAP_OF_PIXEL * seen.pixel if seen.pixel and np.isinf(tolerance) else GAP * tolerance
     for k, node in nodes_of(model).items():
         m = (k + 1) % n
@@ -122,8 +122,7 @@ def _at_nodes(
         if far > 1.0:  # of the nearest points in the row, but others may be nearer
             far = _to_points(model, k, m, node, len(model.row.points)) / reach * sharpness
         if seen.pixel and turn < SHALLOW:
-            blunted = BLUNTING * float(np.tan(0.25 * turn)) * seen.pixel
-            far = max(far, away_from_data(model, k, node) / (CORNER_OFF * sigma + blunted))
+            far = max(far, off_shallow(model, k, node, turn))
         if not each_alone:  # a line and a circle may not meet
             far = max(far, *(_off_node(model, one, node) / gap for one in (k, m)))
         shorter = min(k, m, key=lambda one: data_length(model, one))
@@ -139,6 +138,13 @@ def _at_nodes(
         for own, missed in zip((k, m), _missed(model, k, m, node), strict=True):
             if missed > tolerance:
                 yield missed / tolerance, own
+
+
+def off_shallow(model: Model, k: int, node: FloatArray, turn: float) -> float:
+    """How far a picture's data are from the node behind segment k, over what they may be."""
+    blunted = BLUNTING * float(np.tan(0.25 * turn)) * model.seen.pixel
+    allowed = CORNER_OFF * model.seen.largest_deviation + blunted
+    return away_from_data(model, k, node) / allowed
 
 
 def _off_node(model: Model, k: int, node: FloatArray) -> float:

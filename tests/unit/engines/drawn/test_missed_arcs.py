@@ -1,0 +1,56 @@
+"""Short arcs of pictures that lie between points which count for nothing beside nodes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from benchmarks.drawn.renderers import exact
+from benchmarks.drawn.shapes import gear, rounded
+from benchmarks.drawn.truth import Line
+from shapely import Polygon
+
+import shapespline as ss
+
+SIZE = 256
+
+
+def kinds_of(outline):
+    """Of the pieces of a picture of one outline."""
+    fit = ss.fit_shape(ss.trace(exact([outline], SIZE)), character="drawn").fits[0]
+    return Counter(piece.kind for piece in fit.pieces), fit
+
+
+@pytest.mark.parametrize(("radius", "turn"), [(6, 17), (8, 25), (8, 17)])
+def test_a_fillet_that_turns_by_little_is_one(radius, turn):
+    # A corner of 36 degrees: the arc is 3.8 to 5 pixels long, a corner or a chord as well, and its
+    # edge was left to a curve, with a break of 4 degrees.
+    corners = [(-90, -60), (90, -60), (90, -35), (-60, 75), (-90, 75)]
+    moved = np.random.default_rng(0).uniform(-0.5, 0.5, 2) + SIZE / 2
+    plate = [one.moved(1.0, np.radians(turn), moved) for one in rounded(corners, radius)]
+    kinds, fit = kinds_of(plate)
+    assert kinds == {"line": 5, "arc": 5}
+    radii = [piece.arc.radius for piece in fit.pieces if piece.kind == "arc"]
+    assert np.ptp(radii) < 1e-9 * radii[0]
+    assert abs(radii[0] - radius) < 0.05
+
+
+def test_arcs_between_fillets_are_no_lines():
+    # Teeth of ten, their tips and feet arcs of five to twelve pixels between fillets: most were
+    # told as lines that break by 13 degrees at both ends, and nearly all was left to curves.
+    teeth = filleted(gear(10, 0.33, 0.48, 0.45, 0.25), foot=0.03, tip=0.025)
+    moved = np.random.default_rng(1).uniform(-0.5, 0.5, 2) + SIZE / 2
+    kinds, _ = kinds_of([one.moved(0.9 * SIZE / 0.96, np.radians(7), moved) for one in teeth])
+    assert kinds == {"line": 20, "arc": 60}
+
+
+def filleted(outline, *, foot, tip):
+    """A polygon of many edges: the outline with arcs that touch both sides of its corners."""
+    sides = np.concatenate([element.points(1e-3) for element in outline])
+    round_ends = {"quad_segs": 64}
+    plate = Polygon(sides).buffer(-tip, **round_ends).buffer(tip, **round_ends)
+    plate = plate.buffer(foot, **round_ends).buffer(-foot, **round_ends)
+    corners = np.array(plate.exterior.coords)[::-1]
+    return [Line(begin, end) for begin, end in pairwise(corners)]
