@@ -12,6 +12,7 @@ import argparse
 
 from benchmarks.drawn import random_plates
 from benchmarks.drawn.few_points import exported_table, measured_table, organic_table
+from benchmarks.drawn.fillets import fillets_table
 from benchmarks.drawn.limits import limits_table
 from benchmarks.drawn.measuring import measuring_table
 from benchmarks.drawn.page import write_page
@@ -59,8 +60,15 @@ so many pixels.
 
 """
 
+FILLETS = """
+Small fillets in pictures of 256 pixels that are not exact (`python -m benchmarks.drawn.fillets`): a
+box of 200 x 120 pixels and a hexagon of 100 about the middle, level or turned by 17 degrees, radii
+in pixels. How many of eight places have the lines and arcs that were drawn and nothing else.
+
+"""
+
 MEASURING = """
-The same plates as instruments measure them (`python -m benchmarks.drawn.measuring`): 400 points,
+The random plates as instruments measure them (`python -m benchmarks.drawn.measuring`): 400 points,
 0.1 % noise without a tolerance, 0.05 % within 0.3 %; at uneven steps, with a stretch that is
 missing or was measured twice, one point of a hundred ten deviations off, errors with long tails
 (Student's t of 3), larger ones on half of the outline, along one axis alone, each 0.4 or 0.7 of
@@ -110,6 +118,7 @@ def main() -> None:
     points += f"{limits_table()}{PROFILES}{profiles_table()}{CLEAN}{clean_table()}"
     points += f"{RANDOM}{random_plates.clean_table()}\n{random_plates.noisy_table()}"
     points += f"{NOISY}{random_plates.within_table()}{TRACED}{random_plates.pictures_table()}"
+    points += f"{FILLETS}{fillets_table()}"
     points += f"{MEASURING}{measuring_table()}{CHAINS}{chains_table()}"
     points += f"{FEW}{measured_table()}{EXPORTED}{exported_table()}{ORGANIC}{organic_table()}"
     print("\n".join([*pictures.texts, points, *pictures.left_out]))

@@ -85,7 +85,7 @@ def dotted(
     boxes, off_boxes = _boxes(least, most, pixels, drawn)
     # A round dot on four pixels and a square one are the same: round dots are drawn more often.
     is_box = off_boxes + CLEARLY < off_circles
-    good = np.where(is_box, off_boxes, off_circles) <= most_missed(field)
+    good = np.where(is_box, off_boxes, off_circles) <= most_missed(field.noise)
     told[small] = good
     for k, box, circle, boxed, fits, way in zip(
         small, boxes, circles, is_box, good, ways, strict=True

@@ -107,11 +107,10 @@ def drawn_lines(
     outlines = sharpened(outlines, level_lines, cornered, field, soft, inks)
     if ragged:
         outlines = with_corners_of_bits(outlines, level_lines, of_bits)
-    if not soft.blur:
-        outlines = rounded(outlines, cornered, field, inks)
-        if field.noise <= NOISIEST:
-            outlines, dots = dotted(outlines, level_lines, field, inks)
-            accuracies = np.where(dots, DRAWN_ACCURACY, accuracies).tolist()
+    outlines = rounded(outlines, cornered, field, inks, soft)
+    if not soft.blur and field.noise <= NOISIEST:
+        outlines, dots = dotted(outlines, level_lines, field, inks)
+        accuracies = np.where(dots, DRAWN_ACCURACY, accuracies).tolist()
     outlines = [np.clip(points, 0, (width, height)) for points in outlines]
     return [Line(*line) for line in zip(outlines, level_lines, accuracies, strict=True)]
 

@@ -6,6 +6,9 @@ that touch both the ink of the pixels along the arc tells one: Newton's method f
 that is left, the whole drawing covered anew each time, so that what lies beside counts, too. It is
 taken if the pixels agree one by one, and do so better than with the outline as it was.
 
+Through a lens, in grain and in JPEG files the drawing is spread as the picture is, and an arc is
+taken if its pixels agree as well as others do and a corner in its place would not.
+
 Of a stroke along the pixels, two of them wide, a round end and a square one may be the same pixels:
 such ends are round where anything else in the picture is.
 """
@@ -16,16 +19,20 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.tracing.corners import around, with_corners
+from shapespline.tracing.arc_pixels import ArcPixels, Border
+from shapespline.tracing.corners import UNCERTAIN, UNCERTAIN_BLUR, with_corners
 from shapespline.tracing.coverage import border_coverage
 from shapespline.tracing.sides import NONE, Corners, Turns, Ways, bends_of, length_of, turns_of
-from shapespline.tracing.touching import ARC_POINTS, NEARLY_BACK, Arcs, Touching
+from shapespline.tracing.touching import ARC_POINTS, NEARLY_BACK, Touching
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from shapespline.tracing.arc_pixels import Missed
     from shapespline.tracing.coverage import Covered
     from shapespline.tracing.field import Field
+    from shapespline.tracing.softness import Softness
+    from shapespline.tracing.touching import Arcs
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
 # Radii of arcs that are told, pixels: of smaller ones a corner is left, larger ones are told by
@@ -36,16 +43,22 @@ SMALLEST, LARGEST = 0.65, 8.0
 # how far they may be from a line in the mean (TRC-29).
 NEARS, BEFORE = (1.7, 2.1, 2.5, 3.0, 3.6, 4.3, 5.2, 6.3, 7.5), 0.35
 SIDES, CLEAR, STRAIGHT = (4.0, 2.0, 1.0), 1.25, 0.015
+# In pictures that are not exact sides are looked at as far as this first, and no nearer than so
+# many times what pixels are off by; all lengths grow by so much for each pixel of blur (TRC-47).
+LONG_SIDES, STEADY, SPREAD = (20.0, 10.0, 6.0), 100.0, 1.5
+# There arcs miss the pixels by no more than so many times what the outline does, or what is usual;
+# a corner in their place misses them by so many deviations more. Their radius is at least this, so
+# much more for each pixel of blur, and they take off a corner so many times the ink that a blur
+# leaves unknown there (TRC-47).
+NO_WORSE, SURE, SMALLEST_SOFT, SMALLEST_BLURRED, KNOWN = 1.4, 5.0, 1.0, 1.25, 2.0
 # Points of sides are disturbed so far beyond an arc: its pixels reach there.
 DISTURBED = 0.8
 # Rounds of Newton's method, and their longest step.
 ROUNDS, LONGEST_STEP = 3, 1.0
 # Shorter steps tell that an arc will not agree with its pixels, if all of them are.
 STILL = 0.15
-# Pixels whose middle is so near to an arc tell it, of those so near to its own middle. They may
-# miss the drawing by so much in the mean, and so many deviations of the noise, and by no more than
-# this part of what they miss it by now (TRC-29).
-ALONG, REACH = 1.1, 7
+# The pixels along an arc may miss the drawing by so much in the mean, and so many times what pixels
+# miss it by usually, and by no more than this part of what they miss it by now (TRC-29).
 TOLD, TOLD_NOISE, BETTER = 0.012, 1.5, 0.5
 # The many pixels along half a circle may miss it by more, as some renderers draw chords, and by so
 # many times what they miss the outline by, which may turn anywhere (TRC-36).
@@ -65,7 +78,11 @@ _BETWEEN = (np.arange(BETWEEN) + 1.0)[:, None] / (BETWEEN + 1)
 
 
 def rounded(
-    outlines: Sequence[FloatArray], drawn: Sequence[bool], field: Field, inks: FloatArray
+    outlines: Sequence[FloatArray],
+    drawn: Sequence[bool],
+    field: Field,
+    inks: FloatArray,
+    soft: Softness,
 ) -> list[FloatArray]:
     """Outlines with the arcs of few pixels that the picture shows; all others as they are.
 
@@ -78,12 +95,22 @@ def rounded(
     field : Field
     inks : ndarray, shape (n,)
         What the ink of each is worth, of that of the picture.
+    soft : Softness
     """
-    now = border_coverage(outlines, *field.shape)
-    some = _rounded(outlines, drawn, field, inks, now, turns_of)
-    if some is not outlines:
-        now = border_coverage(some, *field.shape)
-    return list(_rounded(some, drawn, field, inks, now, _half_turns_of))
+    used = np.flatnonzero(drawn).tolist()
+    if not used:
+        return list(outlines)
+    now, some = border_coverage(outlines, *field.shape), [outlines[k] for k in used]
+    ways = Ways(some, [True] * len(some))
+    own, at, _ = turns_of(ways)
+    border = Border.of(some, inks[used], field)
+    pixels = ArcPixels.of(field, soft, ways.at(own, at), border, now)
+    if pixels is None:
+        return list(outlines)
+    others = _rounded(outlines, drawn, pixels, inks, now, turns_of)
+    if others is not outlines:
+        now = border_coverage(others, *field.shape)
+    return list(_rounded(others, drawn, pixels, inks, now, _half_turns_of))
 
 
 def _half_turns_of(ways: Ways) -> Turns:
@@ -95,13 +122,14 @@ def _half_turns_of(ways: Ways) -> Turns:
 def _rounded(
     outlines: Sequence[FloatArray],
     drawn: Sequence[bool],
-    field: Field,
+    pixels: ArcPixels,
     inks: FloatArray,
     now: Covered,
     turns_in: Callable[[Ways], Turns],
 ) -> Sequence[FloatArray]:
     """Outlines with the arcs in some of their turns; the same if there are none."""
-    wrong_pixels = _wrong_pixels(now, field)
+    field, reaches = pixels.field, _Reaches.of(pixels)
+    wrong_pixels = _wrong_pixels(now, pixels)
     used = _looked_at(outlines, drawn, wrong_pixels)
     if not used:
         return outlines
@@ -116,7 +144,7 @@ def _rounded(
     reach = np.zeros(len(at))
     found = NONE._replace(runs=np.empty((0, ARC_POINTS + 2 * BETWEEN, 2)))
     clear = False
-    left = wrong_pixels.about(ways.at(own, at)) & (turn > 0.0)
+    left = (turn > 0.0) & wrong_pixels.about(ways.at(own, at))
     hopeless, least = np.zeros(len(at)), np.zeros(len(at))
 
     def covered(corners: Corners) -> Covered:
@@ -125,38 +153,38 @@ def _rounded(
 
     for nearest in (False, True):
         some, near, touching, shift = _sides_found(
-            ways, turns, room, np.where(left, least, np.inf), nearest=nearest
+            ways, turns, room, np.where(left, least, np.inf), reaches, nearest=nearest
         )
-        arcs, ink = touching.arcs(shift), inks[whose[some]]
-        off = _mean(*_missed(arcs, field, now, ink))
-        wrong = (off > AGREES + TOLD_NOISE * field.noise) & (near != hopeless[some])
+        ink = inks[whose[some]]
+        wrong = _miss(touching.arcs(shift), now, ink, pixels) & (near != hopeless[some])
         left[some] = wrong
         if not wrong.any():
             break
         some, near, touching = some[wrong], near[wrong], touching.chosen(wrong)
         shift, ink = shift[wrong], ink[wrong]
         place = whose[some], at[some]
-        arcs, missed, along = _approached(touching, shift, place, ink, field, covered)
-        off, was_off = _mean(missed, along), _mean(*_missed(arcs, field, now, ink))
-        is_end = np.abs(arcs.turns) >= NEARLY_BACK
-        good = off <= most_missed(field) + (TOLD_END - TOLD) * is_end
-        good &= off <= np.where(is_end, BETTER_END, BETTER) * was_off
-        seen = along.sum(axis=1)  # none of an arc beyond the rim
-        good &= (seen > 0) & (off <= OF_CORNER * arcs.cut_off / np.sqrt(np.maximum(seen, 1)))
-        least[some] = arcs.half_length + BEFORE
-        good &= (near >= least[some]) & (arcs.radii >= SMALLEST) & (arcs.radii <= LARGEST)
-        reach[some] = np.where(good, arcs.half_length + DISTURBED, 0.0)
+        arcs, missed = _approached(touching, shift, place, ink, pixels, covered, reaches)
+        off, was_off = missed.mean, pixels.missed(arcs, now, ink).mean
+        if pixels.exact:
+            good = _agree(arcs, missed, was_off, pixels)
+        else:
+            corners = _corners(place, touching, arcs, touching.apexes(arcs), reaches)
+            off_corner = pixels.missed(arcs, covered(corners), ink).mean
+            good = _agree_softly(arcs, missed, was_off, off_corner, pixels)
+        least[some] = arcs.half_length + reaches.before
+        good &= (near >= least[some]) & (arcs.radii <= LARGEST)
+        reach[some] = np.where(good, arcs.half_length + reaches.disturbed, 0.0)
         beside = np.minimum(reach, reach[after]) > 0.0
         overlap = beside & (reach + reach[after] > ahead)
         good &= ~(overlap | overlap[np.argsort(after)])[some]
         reach[some[~good]] = 0.0
-        corners = _corners(place, touching, arcs, arcs.points(arcs.radii)[:, 1:-1])
-        is_end &= good
+        corners = _corners(place, touching, arcs, arcs.points(arcs.radii)[:, 1:-1], reaches)
+        is_end = good & (np.abs(arcs.turns) >= NEARLY_BACK)
         clear = clear or bool((good & ~is_end).any())
         if is_end.any() and not clear:
-            square = _corners(place, touching, arcs, touching.square_ends(arcs))
-            missed, along = _missed(arcs, field, covered(square.chosen(is_end)), ink)
-            clear = bool((_mean(missed, along) > np.maximum(off, AGREES))[is_end].any())
+            square = _corners(place, touching, arcs, touching.square_ends(arcs), reaches)
+            missed = pixels.missed(arcs, covered(square.chosen(is_end)), ink)
+            clear = bool((missed.mean > np.maximum(off, AGREES))[is_end].any())
         found = found.joined(corners.chosen(good))
         left[some] = ~good
         # What is far off disturbs what lies beside; where nothing was found, nothing changes.
@@ -165,15 +193,74 @@ def _rounded(
     return with_corners(outlines, found, closed) if clear else outlines
 
 
-class _WrongPixels(NamedTuple):
-    """Pixels about those that miss a drawing, and the size of the picture."""
+def _miss(arcs: Arcs, now: Covered, ink: FloatArray, pixels: ArcPixels) -> BoolArray:
+    """Where pixels along arcs miss the outline; in a picture that is not exact all may."""
+    if not pixels.exact:
+        return np.ones(len(ink), dtype=bool)
+    return pixels.missed(arcs, now, ink).mean > AGREES + TOLD_NOISE * pixels.error
 
-    keys: IntArray
+
+def _agree(arcs: Arcs, missed: Missed, was_off: FloatArray, pixels: ArcPixels) -> BoolArray:
+    """Which arcs the pixels of an exact picture agree with, where they missed the outline."""
+    off, is_end = missed.mean, np.abs(arcs.turns) >= NEARLY_BACK
+    good = off <= most_missed(pixels.error) + (TOLD_END - TOLD) * is_end
+    good &= off <= np.where(is_end, BETTER_END, BETTER) * was_off
+    seen = missed.seen  # none of an arc beyond the rim
+    good &= (seen > 0) & (off <= OF_CORNER * arcs.cut_off / np.sqrt(np.maximum(seen, 1)))
+    return good & (arcs.radii >= SMALLEST)
+
+
+def _agree_softly(
+    arcs: Arcs, missed: Missed, was_off: FloatArray, off_corner: FloatArray, pixels: ArcPixels
+) -> BoolArray:
+    """Which arcs the pixels of other pictures agree with, as well as with the outline.
+
+    Points of that lie where these pixels put them, so it is no better for agreeing, too. A corner
+    has to be worse, by more than the blur is not known.
+    """
+    off, error = missed.mean, pixels.error
+    is_end = np.abs(arcs.turns) >= NEARLY_BACK
+    good = off <= most_missed(error) + (TOLD_END - TOLD) * is_end
+    good &= off <= NO_WORSE * np.maximum(was_off, error)
+    good &= (missed.seen > 0) & ((off_corner**2 - off**2) * missed.seen >= (SURE * error) ** 2)
+    good &= off**2 - error**2 <= BETTER**2 * np.maximum(off_corner**2 - error**2, 0.0)
+    good &= arcs.cut_off >= KNOWN * (UNCERTAIN + UNCERTAIN_BLUR * pixels.blur)
+    return good & (arcs.radii >= SMALLEST_SOFT + SMALLEST_BLURRED * pixels.blur)
+
+
+class _Reaches(NamedTuple):
+    """How far arcs disturb the outline, and from where to where and how straight its sides are."""
+
+    nears: Sequence[float]
+    before: float
+    sides: Sequence[float]
+    clear: float
+    straight: float
+    disturbed: float
+
+    @classmethod
+    def of(cls, pixels: ArcPixels) -> _Reaches:
+        """In a picture."""
+        if pixels.exact:
+            return cls(NEARS, BEFORE, SIDES, CLEAR, STRAIGHT, DISTURBED)
+        spread = SPREAD * pixels.blur
+        nears = [near + spread for near in NEARS]
+        sides = [side for side in (*LONG_SIDES, *SIDES) if side >= STEADY * pixels.error]
+        straight = STRAIGHT + pixels.error
+        return cls(nears, BEFORE + spread, sides, CLEAR + spread, straight, DISTURBED + spread)
+
+
+class _WrongPixels(NamedTuple):
+    """Pixels about those that miss a drawing, None for all, and the size of the picture."""
+
+    keys: IntArray | None
     height: int
     width: int
 
     def about(self, points: FloatArray) -> BoolArray:
         """Which points lie in them."""
+        if self.keys is None:
+            return np.ones(len(points), dtype=bool)
         row, column = np.floor(self.height - points[:, 1]), np.floor(points[:, 0])
         return np.isin((row * self.width + column).astype(np.int64), self.keys)
 
@@ -189,9 +276,12 @@ def _looked_at(
     return [k for k in chosen if length_of(outlines[k]) >= shortest]
 
 
-def _wrong_pixels(now: Covered, field: Field) -> _WrongPixels:
-    """Where an arc may be missing."""
+def _wrong_pixels(now: Covered, pixels: ArcPixels) -> _WrongPixels:
+    """Where an arc may be missing: anywhere where a drawing never agrees."""
+    field = pixels.field
     height, width = field.shape
+    if not pixels.exact:
+        return _WrongPixels(None, height, width)
     row, column = np.divmod(now.keys, width)
     off = np.abs(field.ink(row, column) - now.part)
     keys = now.keys[off > MISSED + MISSED_NOISE * field.noise]
@@ -210,7 +300,13 @@ def _next(turns: Turns, ways: Ways) -> tuple[IntArray, FloatArray]:
 
 
 def _sides_found(
-    ways: Ways, turns: Turns, room: FloatArray, least: FloatArray, *, nearest: bool
+    ways: Ways,
+    turns: Turns,
+    room: FloatArray,
+    least: FloatArray,
+    reaches: _Reaches,
+    *,
+    nearest: bool,
 ) -> tuple[IntArray, FloatArray, Touching, FloatArray]:
     """Turns whose sides are straight, from where, circles that touch them, and their numbers.
 
@@ -219,10 +315,10 @@ def _sides_found(
     """
     own, at, _ = turns
     # All lengths and distances at once.
-    tried = np.meshgrid(SIDES, NEARS, np.flatnonzero(least < np.inf), indexing="ij")
+    tried = np.meshgrid(reaches.sides, reaches.nears, np.flatnonzero(least < np.inf), indexing="ij")
     size, near, some = (np.ravel(one.swapaxes(0, int(nearest))) for one in tried)
     used = near >= least[some]
-    used &= near + size <= room[some] - CLEAR
+    used &= near + size <= room[some] - reaches.clear
     near, size, some = near[used], size[used], some[used]
     sides, fit = [], np.ones(len(some), dtype=bool)
     for sign in (-1.0, 1.0):
@@ -234,22 +330,22 @@ def _sides_found(
         angle = 0.5 * np.arctan2(2 * (x * y).sum(axis=1), (x**2 - y**2).sum(axis=1))
         u = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         u *= np.where((u * along).sum(axis=1) < 0, -1.0, 1.0)[:, None]
-        fit &= ((x * u[:, 1:] - y * u[:, :1]) ** 2).mean(axis=1) <= STRAIGHT**2
+        fit &= ((x * u[:, 1:] - y * u[:, :1]) ** 2).mean(axis=1) <= reaches.straight**2
         sides.append((middle, u))
     near, some = near[fit], some[fit]
     touching = Touching([(p[fit], u[fit]) for p, u in sides])
     number = touching.through(ways.at(own[some], at[some]))
     arcs = touching.arcs(number)
-    good = np.flatnonzero((near >= arcs.half_length + BEFORE) & (arcs.radii <= LARGEST))
+    good = np.flatnonzero((near >= arcs.half_length + reaches.before) & (arcs.radii <= LARGEST))
     # Of each turn what comes first.
     some, which = np.unique(some[good], return_index=True)
     good = good[which]
     return some, near[good], touching.chosen(good), number[good]
 
 
-def most_missed(field: Field) -> float:
-    """What pixels that agree may miss an arc by in the mean."""
-    return TOLD + TOLD_NOISE * field.noise
+def most_missed(error: float) -> float:
+    """What pixels that agree may miss an arc by in the mean, where others do by such an error."""
+    return TOLD + TOLD_NOISE * error
 
 
 def _approached(
@@ -257,54 +353,37 @@ def _approached(
     shift: FloatArray,
     place: tuple[IntArray, FloatArray],
     ink: FloatArray,
-    field: Field,
+    pixels: ArcPixels,
     covered: Callable[[Corners], Covered],
-) -> tuple[Arcs, FloatArray, BoolArray]:
+    reaches: _Reaches,
+) -> tuple[Arcs, Missed]:
     """Arcs with the pixels' ink beside them, by Newton's method; what misses them, and where."""
     for _ in range(ROUNDS):
         arcs = touching.arcs(shift)
-        corners = _corners(place, touching, arcs, arcs.points(arcs.chord_radii)[:, 1:-1])
-        missed, along = _missed(arcs, field, covered(corners), ink)
-        step = touching.step_for(missed.sum(axis=1), arcs)
+        corners = _corners(place, touching, arcs, arcs.points(arcs.chord_radii)[:, 1:-1], reaches)
+        missed = pixels.missed(arcs, covered(corners), ink)
+        step = touching.step_for(missed.ink.sum(axis=1), arcs)
         shift = shift + np.clip(step, -LONGEST_STEP, LONGEST_STEP)
-        lost = (np.abs(step) <= STILL) & (_mean(missed, along) > 2.0 * most_missed(field))
+        lost = (np.abs(step) <= STILL) & (missed.mean > 2.0 * most_missed(pixels.error))
         if (lost | (touching.arcs(shift).radii < 0.5 * SMALLEST)).all():
             break
-    return arcs, missed, along
+    return arcs, missed
 
 
 def _corners(
-    place: tuple[IntArray, FloatArray], touching: Touching, arcs: Arcs, inner: FloatArray
+    place: tuple[IntArray, FloatArray],
+    touching: Touching,
+    arcs: Arcs,
+    inner: FloatArray,
+    reaches: _Reaches,
 ) -> Corners:
     """Arcs instead of what lies between their sides, with other points between their ends."""
     points = arcs.points(arcs.radii)
-    begins = points[:, 0] - DISTURBED * touching.sides[0][1]
-    ends = points[:, -1] + DISTURBED * touching.sides[1][1]
-    reach = arcs.half_length + DISTURBED
+    begins = points[:, 0] - reaches.disturbed * touching.sides[0][1]
+    ends = points[:, -1] + reaches.disturbed * touching.sides[1][1]
+    reach = arcs.half_length + reaches.disturbed
     one = begins[:, None] + _BETWEEN * (points[:, 0] - begins)[:, None]
     two = points[:, -1:] + _BETWEEN * (ends - points[:, -1])[:, None]
     runs = np.concatenate([one, points[:, :1], inner, points[:, -1:], two], axis=1)
     apex, (own, at) = points[:, ARC_POINTS // 2], place
     return Corners(own, apex, np.abs(arcs.turns), at - reach, at + reach, runs)
-
-
-def _missed(
-    arcs: Arcs, field: Field, covered: Covered, ink: FloatArray
-) -> tuple[FloatArray, BoolArray]:
-    """What pixels have and a drawing does not, and which of them are along the arcs."""
-    height, width = field.shape
-    points = arcs.points(arcs.radii)
-    r, c, inside = around(0.5 * (points.min(axis=1) + points.max(axis=1)), field.shape, REACH)
-    x_off = (c[:, 0] + 0.5)[:, None] - points[..., :1]
-    y_off = (height - r[:, :, 0] - 0.5)[:, None] - points[..., 1:]
-    near = (y_off[..., None] ** 2 + x_off[:, :, None] ** 2).min(axis=1)
-    along = inside & (near <= ALONG**2)
-    r, c = np.clip(r, 0, height - 1), np.clip(c, 0, width - 1)
-    missed = field.ink(r, c) / ink[:, None, None] - covered.at(r, c, width)
-    size = (len(r), (2 * REACH + 1) ** 2)
-    return np.where(along, missed, 0.0).reshape(size), along.reshape(size)
-
-
-def _mean(missed: FloatArray, along: BoolArray) -> FloatArray:
-    """Root mean square over the pixels that count."""
-    return np.sqrt((missed**2).sum(axis=1) / np.maximum(along.sum(axis=1), 1))

@@ -27,6 +27,8 @@ ENOUGH, LEAST_ACROSS, EVEN, EVEN_NOISE, PLAIN = 100_000, 0.4, 0.02, 2.0, 0.2
 FALLS, FALLS_NOISE = 0.25, 4.0
 # Edges of less blur than this are those of a renderer: sharp (TRC-20).
 LEAST_BLUR = 0.5
+# Less than that shows in arcs of few pixels, but for what JPEG alone seems to spread (TRC-47).
+LEAST_SPREAD = 0.4
 # Variance of a place within a pixel, and of a value between two pixels, of theirs: in the mean over
 # all places there.
 WITHIN_PIXEL, BETWEEN_PIXELS = 1 / 12, 2 / 3
@@ -60,6 +62,7 @@ class Softness(NamedTuple):
     Both are 0 where the grey does not tell. ``rippled`` are sharp edges with ripples beside them.
     ``step`` is what the few greys of sharp edges are multiples of, of the contrast: those edges
     scatter, too. ``resampled`` is a picture taken for one that was turned or scaled by little.
+    ``spread`` is the blur, or less than that if it is more than a renderer's.
     """
 
     blur: float = 0.0
@@ -67,6 +70,7 @@ class Softness(NamedTuple):
     rippled: bool = False
     step: float = 0.0
     resampled: bool = False
+    spread: float = 0.0
 
     @classmethod
     def of(cls, field: Field, found: Crossings, inks: FloatArray) -> Softness:
@@ -103,13 +107,16 @@ class Softness(NamedTuple):
         step : float
             That greys are known to have at least.
         """
-        blur = _blur(profiles, beside, noise)
+        spread = _blur(profiles, beside, noise)
+        if spread is None:
+            step = max(_step(profiles), step)
+            return cls(0.0, SCATTER * step**0.5, _is_rippled(profiles), step)
+        blur = spread if spread >= LEAST_BLUR else 0.0
         step = 0.0 if blur else max(_step(profiles), step)
         rippled = not blur and _is_rippled(profiles)
-        if blur is None:
-            return cls(0.0, SCATTER * step**0.5, rippled, step)
-        scatter = cls(blur).scattered_by(noise)
-        return cls(blur, max(scatter, SCATTER * step**0.5), rippled, step)
+        scatter = max(cls(blur).scattered_by(noise), SCATTER * step**0.5)
+        spread = spread if spread >= LEAST_SPREAD else 0.0
+        return cls(blur, scatter, rippled, step, spread=spread)
 
     def scattered_by(self, noise: float) -> float:
         """How noise of the contrast scatters a level line: over the slope of an edge, pixels."""
@@ -179,7 +186,7 @@ def _step(profiles: FloatArray) -> float:
 
 
 def _blur(profiles: FloatArray, beside: FloatArray, noise: float) -> float | None:
-    """0 where edges are sharp; None where too few are plain."""
+    """As edges tell it; None where too few are plain."""
     even = EVEN + EVEN_NOISE * noise
     off = np.concatenate([profiles[:, :2], profiles[:, -2:] - 1.0], axis=1)
     plain = (np.abs(off) <= even).all(axis=1)
@@ -196,5 +203,4 @@ def _blur(profiles: FloatArray, beside: FloatArray, noise: float) -> float | Non
     total = steps.sum(axis=1)
     middle = steps @ at / total
     variance = (steps @ at**2 / total - middle**2 - WITHIN_PIXEL) * share - WITHIN_PIXEL
-    blur = float(np.sqrt(max(np.median(variance), 0.0)))
-    return blur if blur >= LEAST_BLUR else 0.0
+    return float(np.sqrt(max(np.median(variance), 0.0)))

@@ -104,6 +104,15 @@ class Touching:
         two = points[:, -1] - ahead * self.sides[1][1]
         return np.asarray(one[:, None] + _FLAT[:, None] * (two - one)[:, None])
 
+    def apexes(self, arcs: Arcs) -> FloatArray:
+        """Where lines meet, in place of points between the ends of arcs; of ends square ones."""
+        points = arcs.points(arcs.radii)
+        ahead = np.tan(0.5 * np.minimum(np.abs(self.turns), NEARLY_BACK)) * arcs.radii
+        apex = points[:, 0] + ahead[:, None] * self.sides[0][1]
+        corner = np.broadcast_to(apex[:, None], (len(apex), len(_FLAT), 2))
+        is_end = np.abs(self.turns) >= NEARLY_BACK
+        return np.where(is_end[:, None, None], self.square_ends(arcs), corner)
+
     def step_for(self, ink: FloatArray, arcs: Arcs) -> FloatArray:
         """By how much the number has to rise for so many square pixels of ink more."""
         turn, shrinks = np.abs(self.turns), self.free[:, 2]
