@@ -27,11 +27,13 @@ void bind_settings(nb::module_ &m) {
              "least_interval"_a, "largest_interval"_a, "stagnation_limit"_a);
     nb::class_<spline::Fairness>(m, "Fairness")
         .def(nb::init<double, double>(), nb::kw_only(), "interval_ratio"_a, "speed_ratio"_a);
+    nb::class_<spline::Patience>(m, "Patience")
+        .def(nb::init<int, double>(), "failures"_a, "distance"_a);
     nb::class_<spline::SplineSettings>(m, "SplineSettings")
-        .def(nb::init<spline::FitLimits, spline::Fairness, bool, int, int, double, double,
-                      double>(),
+        .def(nb::init<spline::FitLimits, spline::Fairness, bool, int, int, double,
+                      spline::Patience, spline::Patience>(),
              nb::kw_only(), "fit"_a, "fairness"_a, "keep_fair"_a, "start"_a, "most_at_start"_a,
-             "accept"_a, "worth_trying"_a, "worth_retrying"_a);
+             "accept"_a, "trying"_a, "retrying"_a);
 }
 
 }  // namespace

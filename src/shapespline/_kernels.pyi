@@ -385,6 +385,13 @@ class FitLimits:
 class Fairness:
     def __init__(self, *, interval_ratio: float, speed_ratio: float) -> None: ...
 
+class Patience:
+    def __init__(
+        self,
+        failures: int,  # in a row
+        distance: float,  # tolerances
+    ) -> None: ...
+
 class SplineSettings:
     def __init__(
         self,
@@ -395,8 +402,8 @@ class SplineSettings:
         start: int,  # 0 few knots, 1 more, 2 the data polyline
         most_at_start: int,  # control points
         accept: float,  # tolerances
-        worth_trying: float,
-        worth_retrying: float,
+        trying: Patience,
+        retrying: Patience,
     ) -> None: ...
 
 class RemovalSearch:

@@ -39,7 +39,8 @@ double median_speed(const ShapeRow<Degree> &all) {
     double below = 0.0;
     while (high - low > 1) {
         const auto middle = low + (high - low) / 2;
-        std::nth_element(low, middle, high);
+        std::nth_element(low, middle, high,
+                         [](const auto &a, const auto &b) { return a.first < b.first; });
         double sum = below;
         for (auto it = low; it != middle; ++it) sum += it->second;
         if (sum >= 0.5 * total) {

@@ -79,7 +79,7 @@ class KnotRemoval {
                 standing[id] = {true, false};
                 continue;
             }
-            if (consecutive_failures_ >= kManyFailures && cost_before > settings_.worth_trying) {
+            if (is_hopeless(cost_before, settings_.trying)) {
                 missed_by_[id] = cost_before;
                 continue;
             }
@@ -117,14 +117,17 @@ class KnotRemoval {
         return interruption.ends([&] { return state_.n_points(); });
     }
 
+    bool is_hopeless(double distance, const Patience &patience) const {
+        return consecutive_failures_ >= patience.failures && distance > patience.distance;
+    }
+
     // Not again where nothing near has changed since it failed.
     void retry_knot(int id, const Effort &effort, std::span<const int> redistributions) {
         if (const auto failed = failed_at_.find(id);
             failed != failed_at_.end() && failed->second >= changed_at_[id])
             return;
         if (const auto missed = missed_by_.find(id);
-            consecutive_failures_ >= kManyFailures && missed != missed_by_.end() &&
-            missed->second > settings_.worth_retrying)
+            missed != missed_by_.end() && is_hopeless(missed->second, settings_.retrying))
             return;
         ++consecutive_failures_;
         for (const int n_beside : redistributions) {
@@ -160,14 +163,14 @@ class KnotRemoval {
     struct Standing {
         bool queued = false, stale = false;
     };
-    static constexpr int kRefitSamples = 24;
+    // Of every span, where knots are put in order and where a trial is looked at again (SPL-21).
+    static constexpr int kRankSamples = 4, kRefitSamples = 24;
     static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
     static constexpr double kThinning = 0.025;  // of the tolerance (SPL-04)
     static constexpr int kSearchPoints = 150;  // at least (SPL-03)
     // First knots for each that bends ask for, in one search and, if that misses the product rule,
     // in the next one (SPL-15).
     static constexpr std::array<std::array<double, 2>, 2> kDensities{{{0.6, 1.0}, {1.4, 2.0}}};
-    static constexpr int kManyFailures = 12;  // in a row make others unlikely (SPL-07)
     static constexpr int kMedianAge = 256;  // control points for one removal that it may be old
     static constexpr double kTryStale = 0.97;
     static constexpr double kFlatness = 0.01;  // of the tolerance, for crossings
@@ -247,7 +250,9 @@ class KnotRemoval {
     double cost(int r, const Effort &rank) {
         ++counts_.ranks;
         if (!make_candidate(r, 0)) return std::numeric_limits<double>::infinity();
-        return fit_candidate(r, rank, settings_.fit);
+        FitLimits rough = settings_.fit;
+        rough.samples_per_span = kRankSamples;
+        return fit_candidate(r, rank, rough);
     }
 
     bool try_removal(int r, const Effort &effort, int n_beside) {

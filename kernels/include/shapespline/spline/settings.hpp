@@ -13,6 +13,12 @@ struct Effort {
     std::vector<FitStage> stages;
 };
 
+// After so many failures in a row nothing is tried that is beyond a distance in tolerances.
+struct Patience {
+    int failures;
+    double distance;
+};
+
 struct SplineSettings {
     FitLimits fit;
     Fairness fairness;
@@ -20,9 +26,7 @@ struct SplineSettings {
     int start;      // which knots it begins with: 0 few, 1 more, 2 the data polyline
     int most_at_start;  // control points at which insertion gives up
     double accept;  // part of the tolerance that an accepted curve keeps
-    // In tolerances, after several failures in a row: the rank beyond which a removal is not tried,
-    // and the distance of a failed one beyond which it gets no harder attempt.
-    double worth_trying, worth_retrying;
+    Patience trying, retrying;  // by the rank, by the distance of the attempt that failed
 };
 
 struct RemovalCounts {

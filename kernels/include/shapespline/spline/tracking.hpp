@@ -97,13 +97,14 @@ class Tracking {
         const int n = window.n_data();
         out.resize(n);
         for (int j = 0; j < n; ++j) {
-            if (window.starts_open_curve && j == 0)
-                curve.span[j] = window.first_span, curve.local_parameter[j] = -1.0;
-            else if (window.ends_open_curve && j == n - 1)
-                curve.span[j] = window.last_span, curve.local_parameter[j] = 1.0;
-            else
-                step_to_foot(window, curve, curves, n_steps, j);
-            out[j] = curves[curve.span[j]].point(curve.local_parameter[j]) - window.data[j];
+            const bool at_begin = window.starts_open_curve && j == 0;
+            if (at_begin || (window.ends_open_curve && j == n - 1)) {
+                const int span = curve.span[j] = at_begin ? window.first_span : window.last_span;
+                const double u = curve.local_parameter[j] = at_begin ? -1.0 : 1.0;
+                out[j] = curves[span].point(u) - window.data[j];
+            } else {
+                out[j] = step_to_foot(window, curve, curves, n_steps, j);
+            }
         }
         restore_order(window, curve, curves, out);
     }
@@ -226,19 +227,21 @@ class Tracking {
                piece_within(window, right, span, bracket, most_sq, depth + 1);
     }
 
-    static void step_to_foot(const Window<Degree> &window, LocalCurve &curve,
+    // Moves data point j nearer to its foot; returns the residual there.
+    static Vec2 step_to_foot(const Window<Degree> &window, LocalCurve &curve,
                              const Curves &curves, int n_steps, int j) {
         constexpr double kEnough = 1e-4;
         const Vec2 q = window.data[j];
         int span = curve.span[j], best_span = span;
         double u = curve.local_parameter[j], best_local = u;
         double best_sq = std::numeric_limits<double>::infinity();
+        Vec2 best{};
         for (int step = 0;; ++step) {
             const SpanCurve<Degree> &c = curves[span];
             const Vec2 r = c.point(u) - q;
             const double distance_sq = norm_sq(r);
             if (!(distance_sq < best_sq)) break;
-            best_sq = distance_sq, best_span = span, best_local = u;
+            best_sq = distance_sq, best_span = span, best_local = u, best = r;
             if (step == n_steps) break;
             const Vec2 tangent = c.tangent(u);
             const double speed_sq = norm_sq(tangent);
@@ -250,6 +253,7 @@ class Tracking {
         }
         curve.span[j] = best_span;
         curve.local_parameter[j] = best_local;
+        return best;
     }
 
     // Moves a local parameter along the curve, over knots and empty spans, not beyond the window.

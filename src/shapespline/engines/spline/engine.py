@@ -66,28 +66,31 @@ _RANK = _effort(3, (1, 1, False, inf))
 _REMOVE_QUICKLY = _effort(4, (1, 3, False, 6.0), (3, 8, True, 2.0), (6, 15, True, inf))
 _REMOVE = _effort(4, (1, 6, False, 6.0), (3, 8, True, 2.5), (6, 25, True, inf))
 _RETRY = _effort(7, (1, 4, False, inf), (3, 12, True, 2.6), (6, 25, True, 1.3), (10, 30, True, inf))
+_UNENDING = _kernels.Patience(NO_LIMIT, inf)
 
 
 class _Level(NamedTuple):
     """What an effort spends: fits, passes over what is left and how they redistribute intervals.
 
-    A stage is left that would need ``stagnation_limit`` times its present rate. After twelve
-    failures in a row no removal is tried whose rank is beyond ``worth_trying`` tolerances, and none
-    retried that failed by more than ``worth_retrying``.
+    A stage is left that would need ``stagnation_limit`` times its present rate. After so many
+    failures in a row no removal is tried whose rank is beyond so many tolerances (``trying``), and
+    none retried that failed by more (``retrying``).
     """
 
     remove: _kernels.RemovalEffort
     passes: int
     redistributions: list[int]
     stagnation_limit: float
-    worth_trying: float = inf
-    worth_retrying: float = inf
+    trying: _kernels.Patience = _UNENDING
+    retrying: _kernels.Patience = _UNENDING
 
 
-# What each effort spends (SPL-02, SPL-07).
+# What each effort spends (SPL-02, SPL-07, SPL-20).
 LEVELS = {
-    "fast": _Level(_REMOVE_QUICKLY, 0, [], 4.0, worth_trying=6.0),
-    "balanced": _Level(_REMOVE, 1, [0, 2], 8.0, worth_retrying=2.0),
+    "fast": _Level(_REMOVE_QUICKLY, 0, [], 4.0, _kernels.Patience(20, 2.5)),
+    "balanced": _Level(
+        _REMOVE, 1, [0, 2], 8.0, _kernels.Patience(24, 4.0), _kernels.Patience(4, 2.0)
+    ),
     "smallest": _Level(_REMOVE, 4, [0, 2, 4], 1e9),
 }
 
@@ -222,8 +225,8 @@ def _settings(
         start=start,
         most_at_start=most_at_start,
         accept=ACCEPT,
-        worth_trying=level.worth_trying,
-        worth_retrying=level.worth_retrying,
+        trying=level.trying,
+        retrying=level.retrying,
     )
 
 

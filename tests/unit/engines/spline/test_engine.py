@@ -66,7 +66,8 @@ def first_attempt(contour, tolerance, effort):
 @pytest.mark.parametrize("effort", ["fast", "balanced"])
 def test_without_hope_less_is_tried_for_as_few_points(monkeypatch, effort):
     fit = first_attempt(flower(), 0.02, effort)
-    level = engine.LEVELS[effort]._replace(worth_trying=np.inf, worth_retrying=np.inf)
+    unending = engine.LEVELS["smallest"]
+    level = engine.LEVELS[effort]._replace(trying=unending.trying, retrying=unending.retrying)
     monkeypatch.setitem(engine.LEVELS, effort, level)
     patient = first_attempt(flower(), 0.02, effort)
     assert fit.counts["trials"] < patient.counts["trials"]
