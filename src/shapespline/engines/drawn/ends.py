@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn.joints import direction_at, meeting, onto, turn_at, unit_of
+from shapespline.engines.drawn.joints import cos_sin, direction_at, meeting, onto, turn_at, unit_of
 from shapespline.engines.drawn.segments import CORNER, LINE
 from shapespline.geometry import distance_from_chords
 
@@ -98,41 +98,55 @@ def _nodes_of(model: Model) -> dict[int, FloatArray]:
 
 def last_on(model: Model, k: int) -> int:
     """The last point of a segment that lies on its element."""
-    i, j, _ = model.row.found[k]
-    first = max(i + (j - i) // 2, j - NEIGHBOURS)
-    return first + int(np.flatnonzero(_lies_on(model, k, first, j))[-1])
+    return model.row.found[k].begin + _last_on(model, _off(model, k))
 
 
 def first_on(model: Model, k: int) -> int:
     """The first point of a segment that lies on its element."""
-    i, j, _ = model.row.found[k]
-    last = min(i + (j - i) // 2, i + NEIGHBOURS)
-    return i + int(np.flatnonzero(_lies_on(model, k, i, last))[0])
+    return model.row.found[k].begin + _first_on(model, _off(model, k))
 
 
 def on_between(model: Model, k: int, tolerance: float) -> tuple[int, int]:
     """First and last point on an element that only its ends miss by more than a tolerance."""
-    i, j, _ = model.row.found[k]
-    first, last = first_on(model, k), last_on(model, k)
-    off = np.abs(off_by(model, k, model.row.points[i : j + 1])) > tolerance
-    if off[first - i : last + 1 - i].any():
+    (i, j, _), off = model.row.found[k], _off(model, k)
+    far = off > tolerance
+    if not far.any():
         return i, j
-    return first if off[: first - i].any() else i, last if off[last - i :].any() else j
+    first, last = _first_on(model, off), _last_on(model, off)
+    if far[first : last + 1].any():
+        return i, j
+    return i + first if far[:first].any() else i, i + last if far[last:].any() else j
 
 
-def _lies_on(model: Model, k: int, first: int, last: int) -> BoolArray:
-    """Which of some points are no farther from an element than noise; at least the nearest."""
-    off = np.abs(off_by(model, k, model.row.points[first : last + 1]))
+def _off(model: Model, k: int) -> FloatArray:
+    """How far the points of a segment are from its element."""
+    i, j, _ = model.row.found[k]
+    return np.abs(off_by(model, k, model.row.points[i : j + 1]))
+
+
+def _last_on(model: Model, off: FloatArray) -> int:
+    """The last of points so far from an element that lies on it."""
+    n = len(off) - 1
+    return n - int(_lies_on(model, off[max(n // 2, n - NEIGHBOURS) :][::-1]).argmax())
+
+
+def _first_on(model: Model, off: FloatArray) -> int:
+    """The first of them."""
+    return int(_lies_on(model, off[: min((len(off) - 1) // 2, NEIGHBOURS) + 1]).argmax())
+
+
+def _lies_on(model: Model, off: FloatArray) -> BoolArray:
+    """Which of points so far from an element are no farther than noise; at least the nearest."""
     return off <= max(ON * model.seen.largest_deviation, float(off.min()))
 
 
 def off_by(model: Model, k: int, points: FloatArray) -> FloatArray:
     """Signed distances of points from the whole line or circle of an element."""
-    o = model.at[k]
+    own, x, y = model.unknowns(k), points[:, 0], points[:, 1]
     if model.kind(k) == LINE:
-        tx, ty = unit_of(float(model.x[o]))
-        return tx * points[:, 1] - ty * points[:, 0] - model.x[o + 1]
-    return np.hypot(*(points - model.x[o : o + 2]).T) - model.x[o + 2]
+        tx, ty = cos_sin(own[0])
+        return tx * y - ty * x - own[1]
+    return np.hypot(x - own[0], y - own[1]) - own[2]
 
 
 def misses(model: Model, k: int, *nodes: FloatArray) -> bool:

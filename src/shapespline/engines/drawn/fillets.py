@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.engines.drawn.ends import data_length, off_by
-from shapespline.engines.drawn.joints import meeting, unit_of
+from shapespline.engines.drawn.joints import cos_sin, meeting
 from shapespline.engines.drawn.segments import ARC, FREE_OF_POINTS, LINE, PRICE, SMOOTH, Segment
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from shapespline.engines.drawn.joints import Place
     from shapespline.engines.drawn.model import Model
     from shapespline.engines.drawn.segments import Segments
     from shapespline.typing import FloatArray
@@ -64,16 +65,21 @@ def rows_with_fillets(model: Model, *, estimating: bool) -> Iterator[Segments]:
     ``estimating`` without a tolerance.
     """
     fewest = FEWEST_ESTIMATED if estimating else FEWEST
+    known: dict[tuple[int, ...], Fillet | None] = {}
 
-    @cache
     def best(a: int, inner: tuple[int, ...], b: int) -> Fillet | None:
         # An arc that takes points of its neighbours touches none.
         of_arc = [model.kind(k) for k in inner] == [ARC]
         if not all(k in model.at for k in inner) or (of_arc and not estimating):
             return None
-        return _best_between(model, a, inner, b, fewest)
+        key = a, *inner, b
+        if key not in known:
+            known[key] = _best_between(model, a, inner, b, fewest)
+        return known[key]
 
     told = _with_fillets(model, best, fewest, lambda one: one.is_told)
+    if told is None and not any(one is not None and one.is_possible for one in known.values()):
+        return  # all were looked at
     # For all shorter elements, though some are told by these as well.
     alike = _with_fillets(
         model, best, fewest, lambda one: one.is_possible if one.inner else one.is_told
@@ -240,11 +246,13 @@ class _Turn(NamedTuple):
         """Between lines a and b; None if what lies there does not turn as a fillet does."""
         if a == b:
             return None
-        along_a, along_b = (unit_of(float(model.x[model.at[k]])) for k in (a, b))
-        turn = _turn(along_a, along_b)
-        ways = [_way(model, k, along_a) for k in inner if k in model.at]
-        if not SMOOTH < abs(turn) < LARGEST_TURN or any(way * turn < -SMOOTH for way in ways):
+        places = [cos_sin(model.unknowns(k)[0]) for k in (a, b)]
+        turn = _turn(*places)
+        if not SMOOTH < abs(turn) < LARGEST_TURN:
             return None
+        if any(_way(model, k, places[0]) * turn < -SMOOTH for k in inner if k in model.at):
+            return None
+        along_a, along_b = (np.array(place) for place in places)
         row, last = model.row, len(model.row.points) - 1
         found = row.found
         i = found[a].end
@@ -334,13 +342,13 @@ def _between_edges(
     return squares, numbers, at
 
 
-def _turn(u: FloatArray, v: FloatArray) -> float:
+def _turn(u: Place, v: Place) -> float:
     """Angle from a direction to another."""
-    return atan2(u[0] * v[1] - u[1] * v[0], u @ v)
+    return atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
 
 
-def _way(model: Model, k: int, along: FloatArray) -> float:
+def _way(model: Model, k: int, along: Place) -> float:
     """By what an element turns from a direction: only the sign tells for an arc."""
     if model.kind(k) == ARC:
         return model.ways[k]
-    return _turn(along, unit_of(float(model.x[model.at[k]])))
+    return _turn(along, cos_sin(model.unknowns(k)[0]))

@@ -31,7 +31,15 @@ def direction_at(model: Model, k: int, point: FloatArray) -> FloatArray:
 
 def unit_of(angle: float) -> FloatArray:
     """A unit vector; multiples of a right angle, but for rounding, have exact ones."""
-    return np.array(_unit_of(angle))
+    return np.array(cos_sin(angle))
+
+
+def cos_sin(angle: float) -> Place:
+    """Its coordinates."""
+    quarter = round(angle / (pi / 2))
+    if abs(angle - quarter * (pi / 2)) < EXACT:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarter % 4]
+    return cos(angle), sin(angle)
 
 
 def onto(model: Model, k: int, point: FloatArray) -> FloatArray:
@@ -55,7 +63,7 @@ def distance_from(model: Model, k: int, x: float, y: float) -> float:
     """How far a point is from the whole line or circle of an element."""
     own = model.unknowns(k)
     if model.kind(k) == LINE:
-        tx, ty = _unit_of(own[0])
+        tx, ty = cos_sin(own[0])
         return abs(tx * y - ty * x - own[1])
     return abs(float(np.hypot(x - own[0], y - own[1])) - own[2])
 
@@ -72,23 +80,16 @@ def turn_at(model: Model, k: int, m: int, point: FloatArray) -> float:
 def _direction_at(model: Model, k: int, point: FloatArray) -> Place:
     own = model.unknowns(k)
     if model.kind(k) == LINE:
-        return _unit_of(own[0])
+        return cos_sin(own[0])
     x, y = (float(point[0]) - own[0]) * model.ways[k], (float(point[1]) - own[1]) * model.ways[k]
     far = float(np.hypot(x, y))
     return -(y / far), x / far
 
 
-def _unit_of(angle: float) -> Place:
-    quarter = round(angle / (pi / 2))
-    if abs(angle - quarter * (pi / 2)) < EXACT:
-        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarter % 4]
-    return cos(angle), sin(angle)
-
-
 def _onto(model: Model, k: int, x: float, y: float) -> Place:
     own = model.unknowns(k)
     if model.kind(k) == LINE:
-        tx, ty = _unit_of(own[0])
+        tx, ty = cos_sin(own[0])
         d = own[1]
         if ty == 0.0:
             return x, d * tx
@@ -115,7 +116,7 @@ def _nearer(a: Place, b: Place, near: Place) -> Place:
 
 def _of_lines(model: Model, k: int, m: int, near: Place) -> Place:
     (phi, c), (psi, d) = model.unknowns(k), model.unknowns(m)
-    (ax, ay), (bx, by) = _unit_of(phi), _unit_of(psi)
+    (ax, ay), (bx, by) = cos_sin(phi), cos_sin(psi)
     det = ax * by - ay * bx
     if abs(det) < PARALLEL:
         return _middle(model, k, m, near)
@@ -135,7 +136,7 @@ def _of_line_and_circle(model: Model, k: int, m: int, near: Place) -> Place:
     half_sq = r * r - ((cx - x) * (cx - x) + (cy - y) * (cy - y))
     if half_sq <= (TOUCHES * r) ** 2:
         return x, y
-    tx, ty = _unit_of(model.unknowns(k)[0])
+    tx, ty = cos_sin(model.unknowns(k)[0])
     u, v = tx * half_sq**0.5, ty * half_sq**0.5
     return _nearer((x + u, y + v), (x - u, y - v), near)
 

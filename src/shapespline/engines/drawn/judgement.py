@@ -16,7 +16,7 @@ from shapespline.engines.drawn.ends import (
     nodes_of,
     off_by,
 )
-from shapespline.engines.drawn.joints import direction_at, turn_at
+from shapespline.engines.drawn.joints import direction_at, distance_from, turn_at
 from shapespline.engines.drawn.jumps import jump_clearly
 from shapespline.engines.drawn.regularities import DIRECTIONS, OF_PICTURES, RADII, TANGENT_TURN
 from shapespline.engines.drawn.segments import ARC, CORNER, FREE, LINE, is_corner
@@ -199,6 +199,8 @@ def without_few(model: Model) -> Segments | None:
         if before not in model.at or after not in model.at:
             continue
         points = row.points[i + 1 : j + 1]
+        if any(_off_both(model, before, after, *place) for place in points.tolist()):
+            continue
         left = (off_by(model, before, points) / sigma) ** 2
         right = (off_by(model, after, points) / sigma) ** 2
         both = np.concatenate([[0.0], np.cumsum(left)]) + np.concatenate(
@@ -213,6 +215,12 @@ def without_few(model: Model) -> Segments | None:
             found = (first._replace(end=node), last._replace(begin=node))
             return row._replace(found=(*row.found[: at - 1], *found, *row.found[at + 2 :]))
     return None
+
+
+def _off_both(model: Model, before: int, after: int, x: float, y: float) -> bool:
+    """Whether a point is farther from two elements than those of few points are (DRA-15)."""
+    off = min(distance_from(model, k, x, y) for k in (before, after))
+    return (off / model.seen.deviation) ** 2 > OFF_FEW**2
 
 
 def is_enough(row: Segments) -> bool:
