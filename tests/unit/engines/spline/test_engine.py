@@ -65,11 +65,12 @@ def first_attempt(contour, tolerance, effort):
 
 @pytest.mark.parametrize("effort", ["fast", "balanced"])
 def test_without_hope_less_is_tried_for_as_few_points(monkeypatch, effort):
-    fit = first_attempt(flower(), 0.02, effort)
+    contour = Contour(wiggly(200), closed=True)
+    fit = first_attempt(contour, 0.1, effort)
     unending = engine.LEVELS["smallest"]
     level = engine.LEVELS[effort]._replace(trying=unending.trying, retrying=unending.retrying)
     monkeypatch.setitem(engine.LEVELS, effort, level)
-    patient = first_attempt(flower(), 0.02, effort)
+    patient = first_attempt(contour, 0.1, effort)
     assert fit.counts["trials"] < patient.counts["trials"]
     assert fit.curve.n_control_points == patient.curve.n_control_points
 
