@@ -48,7 +48,7 @@ class Arcs(NamedTuple):
     def chord_radii(self) -> FloatArray:
         """Radii with which the chords between the points enclose as much as the arcs do."""
         step = np.abs(self.turns) / (ARC_POINTS - 1)
-        return self.radii * np.sqrt(step / np.sin(step))
+        return np.asarray(self.radii / np.sqrt(np.sinc(step / np.pi)))
 
 
 class Touching:
