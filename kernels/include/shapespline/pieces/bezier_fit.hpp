@@ -157,7 +157,7 @@ class BezierFit {
 
     bool out_of_reach(int round) const {
         return LawsonStop::out_of_reach(squares_.cost(), squares_.total_weight(), best_,
-                                        limits_.tolerance, limits_.rate, round, round > 0);
+                                        limits_.tolerance, round, round > 0);
     }
 
     void reweight() {

@@ -17,7 +17,6 @@ class JointSmoother {
         : data_(data),
           ring_(ring),
           tolerance_(settings.tolerance),
-          rate_(settings.budget.rate()),
           largest_degree_(settings.largest_degree),
           low_turn_(low_turn) {}
 
@@ -249,7 +248,7 @@ class JointSmoother {
     }
 
     bool accept(long i0, long i1, const std::vector<Section> &window) {
-        const LawsonLimits limits{tolerance_, kRounds, kStrays, false, rate_};
+        const LawsonLimits limits{tolerance_, kRounds, kStrays};
         LawsonResult result =
             LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits).run();
         if (!result.kept) return false;
@@ -264,7 +263,7 @@ class JointSmoother {
 
     std::span<const Vec2> data_;
     SectionRing &ring_;
-    double tolerance_, rate_;
+    double tolerance_;
     int largest_degree_, most_raise_ = 0;
     std::span<const Index> low_turn_;
     std::set<Index> failed_;

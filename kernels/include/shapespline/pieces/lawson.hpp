@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "shapespline/pieces/chain_solver.hpp"
-#include "shapespline/pieces/settings.hpp"
 
 namespace shapespline::pieces {
 
@@ -25,7 +24,6 @@ struct LawsonLimits {
     int strays = std::numeric_limits<int>::max();
     // Beziers are fitted like all others: where joints are free that saves a point of fifty.
     bool general = false;
-    double rate = kRate;
 };
 
 // Two are enough where much is tried and little succeeds, but where joints are free (PIE-07).
@@ -41,13 +39,13 @@ struct LawsonStop {
     // weight, forbids the tolerance, or the best so far is too far from it: rounds that help at
     // all bring it near at a rate of this kind (measured).
     static bool out_of_reach(double sum, double total_weight, double best, double tolerance,
-                             double rate, int round, bool converged) {
-        // The bound of a start that has not converged may be too large by this factor, squared
-        // (PIE-14).
-        constexpr double kStartFactor = 9.0;
+                             int round, bool converged) {
+        // The bound of a start that has not converged may be too large by this factor, squared;
+        // a lower rate gives up what would succeed (PIE-14).
+        constexpr double kStartFactor = 9.0, kRate = 20.0;
         const double factor = converged ? 1.0 : kStartFactor;
         return sum > factor * tolerance * tolerance * total_weight ||
-               best > tolerance * (1.0 + rate / ((round + 1) * (round + 1)));
+               best > tolerance * (1.0 + kRate / ((round + 1) * (round + 1)));
     }
 
     // By what a weight is multiplied after a round.
@@ -181,8 +179,8 @@ class LawsonFit {
             sum += weights_.nodes[i] * state_.node_distances_sq[i];
             total += weights_.nodes[i];
         }
-        return LawsonStop::out_of_reach(sum, total, best_, limits_.tolerance, limits_.rate,
-                                        round, round > 0 || !started_);
+        return LawsonStop::out_of_reach(sum, total, best_, limits_.tolerance, round,
+                                        round > 0 || !started_);
     }
 
     void reweight(double distance) {

@@ -42,8 +42,6 @@ class Reduction {
   private:
     // Minimax rounds of a move; fewer cost points (PIE-14).
     static constexpr int kRounds = 25, kStartRounds = 8;
-    // Tolerances, as kWorthFreeing, where a search is not thorough (PIE-31).
-    static constexpr double kQuickWorthFreeing = 3.0;
 
     long n_points() const { return ring_.cost() + (ring_.closed() ? 0 : 1); }
 
@@ -104,8 +102,7 @@ class Reduction {
         if (!fresh.empty()) {
             window.erase(window.begin() + (i - i0), window.begin() + (i - i0 + old));
             window.insert(window.begin() + (i - i0), fresh.begin(), fresh.end());
-            const LawsonLimits limits{settings_.tolerance, kRounds, most_strays(settings_.smooth),
-                                      false, settings_.budget.rate()};
+            const LawsonLimits limits{settings_.tolerance, kRounds, most_strays(settings_.smooth)};
             LawsonResult result =
                 LawsonFit(data_, window, ring_.begin_of(i0), ring_.end_before(i1 + 1), limits)
                     .run();
@@ -153,10 +150,9 @@ class Reduction {
             fresh[1].sections[0].join_like({.tangent = settings_.smooth});
         }
         fresh[0].sections[0].join_like(a);
-        const double worth = settings_.budget.thorough ? kWorthFreeing : kQuickWorthFreeing;
         std::vector<Section> sections;
         for (const LawsonResult &result : fresh) {
-            if (result.distance > worth * settings_.tolerance) return {};
+            if (result.distance > kWorthFreeing * settings_.tolerance) return {};
             sections.push_back(result.sections.front());
         }
         return sections;
@@ -170,7 +166,7 @@ class Reduction {
     }
     LawsonLimits start_limits() const {
         return {settings_.tolerance, kStartRounds, most_strays(settings_.smooth),
-                !settings_.smooth, settings_.budget.rate()};
+                !settings_.smooth};
     }
 
     std::span<const Vec2> data_;

@@ -5,18 +5,12 @@
 
 namespace shapespline::pieces {
 
-// Of minimax rounds that help: what is farther from the tolerance is given up, though some would
-// reach it; moves and smooth joints of a search that is not thorough sooner (PIE-14, PIE-31).
-inline constexpr double kRate = 20.0, kQuickRate = 5.0;
-
 struct PiecesBudget {
     Index stride;       // of candidate nodes
     double resolution;  // their polyline passes the data within it
     Index every;        // one candidate in so many is looked from
     int passes;         // of the reduction
     bool thorough;      // two neighbours on each side of a move, too, and bold moves with one
-
-    double rate() const { return thorough ? kRate : kQuickRate; }
 };
 
 struct PiecesSettings {
