@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 ALONG, REACH, ALONG_BLURRED = 1.1, 7, 1.5
 # Pixels of edges that a renderer drew exactly miss the drawing by no more; where edges miss it by
 # more than so much, and so many times the noise, they are no edges of that blur (TRC-47).
-EXACT, MOST_OFF, MOST_NOISE = 0.003, 0.03, 1.5
+EXACT, MOST_OFF, MOST_NOISE = 0.005, 0.03, 1.5
 # The blur is that of these with which edges miss least, parts of the one that is told (TRC-47).
 BLURS = (0.8, 0.9, 1.0, 1.1, 1.2, 1.3)
 # Points of edges, and turns, from which is told what pixels miss; arcs that are looked at together.

@@ -20,7 +20,7 @@ def fitted(outline, picture):
 @pytest.mark.parametrize(
     ("shape", "radius", "turn", "picture", "off"),
     [
-        ("box", 3.0, 0.0, "JPEG 90", 0.1),
+        ("box", 3.0, 17.0, "JPEG 90", 0.1),
         ("hexagon", 5.0, 0.0, "JPEG 90", 0.1),
         ("box", 4.0, 17.0, "blurred by 0.5", 0.1),
         ("hexagon", 4.0, 17.0, "blurred by 0.5", 0.2),

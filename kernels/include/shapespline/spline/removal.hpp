@@ -163,8 +163,8 @@ class KnotRemoval {
     struct Standing {
         bool queued = false, stale = false;
     };
-    // Of every span, where many control points are put in order and where a trial is looked at again
-    // (SPL-21).
+    // Of every span, where many control points are put in order, and where a trial is looked at
+    // again (SPL-21).
     static constexpr int kRankSamples = 4, kManyPoints = 24, kRefitSamples = 24;
     static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
     static constexpr double kThinning = 0.025;  // of the tolerance (SPL-04)
