@@ -163,9 +163,7 @@ class KnotRemoval {
     struct Standing {
         bool queued = false, stale = false;
     };
-    // Of every span, where many control points are put in order, and where a trial is looked at
-    // again (SPL-21).
-    static constexpr int kRankSamples = 4, kManyPoints = 24, kRefitSamples = 24;
+    static constexpr int kRefitSamples = 24;  // of every span
     static constexpr double kLeastEnough = 0.5, kTighter = 0.9, kPolylinePart = 0.5;
     static constexpr double kThinning = 0.025;  // of the tolerance (SPL-04)
     static constexpr int kSearchPoints = 150;  // at least (SPL-03)
@@ -251,9 +249,7 @@ class KnotRemoval {
     double cost(int r, const Effort &rank) {
         ++counts_.ranks;
         if (!make_candidate(r, 0)) return std::numeric_limits<double>::infinity();
-        FitLimits rough = settings_.fit;
-        if (state_.n_points() > kManyPoints) rough.samples_per_span = kRankSamples;
-        return fit_candidate(r, rank, rough);
+        return fit_candidate(r, rank, settings_.fit);
     }
 
     bool try_removal(int r, const Effort &effort, int n_beside) {

@@ -89,7 +89,7 @@ class _Level(NamedTuple):
 LEVELS = {
     "fast": _Level(_REMOVE_QUICKLY, 0, [], 4.0, _kernels.Patience(20, 2.5)),
     "balanced": _Level(
-        _REMOVE, 1, [0, 2], 8.0, _kernels.Patience(16, 4.0), _kernels.Patience(4, 2.0)
+        _REMOVE, 1, [0, 2], 8.0, _kernels.Patience(30, 4.0), _kernels.Patience(4, 2.0)
     ),
     "smallest": _Level(_REMOVE, 4, [0, 2, 4], 1e9),
 }
