@@ -294,7 +294,7 @@ def _of_row(
     best = estimated(model, model.row, tolerance)
     if best is not None and estimating:
         best = settled(best, tolerance)
-    for with_arcs in _with_arcs(model, best, estimating=estimating, whole=whole):
+    for with_arcs in _with_arcs(model, estimating=estimating, whole=whole):
         other = estimated(model, with_arcs, tolerance)
         if other is not None:
             as_it_is = other.model.row is with_arcs
@@ -322,18 +322,15 @@ def _of_row(
     return None if whole and not as_read else begun(best, tolerance)
 
 
-def _with_arcs(
-    model: Model, best: Estimated | None, *, estimating: bool, whole: bool
-) -> Iterator[Segments]:
-    """Rows with arcs that the model's has not, whose estimate is known.
+def _with_arcs(model: Model, *, estimating: bool, whole: bool) -> Iterator[Segments]:
+    """Rows with arcs that the model's has not.
 
     None of a picture's row that is to hold as a ``whole``.
     """
     if not model.seen.pixel:
         yield from rows_with_fillets(model, estimating=estimating)
     elif not whole:
-        holds = best is not None and best.model.row is model.row
-        yield from rows_with_missed_arcs(model, holds=holds)
+        yield from rows_with_missed_arcs(model)
 
 
 def _is_taken(other: Estimated, best: Estimated | None, *, as_it_is: bool) -> bool:

@@ -28,22 +28,18 @@ if TYPE_CHECKING:
 LONGEST, BREAK, FEWEST, SHORTEST = 1.5, np.radians([3.0, 20.0]), 3, 3.0
 
 
-def rows_with_missed_arcs(model: Model, *, holds: bool) -> Iterator[Segments]:
-    """The row with arcs where nodes are no corners; nothing where they are.
-
-    Corners of a row that ``holds`` stay: an arc always leaves less than a corner that was blurred.
-    """
+def rows_with_missed_arcs(model: Model) -> Iterator[Segments]:
+    """The row with arcs where nodes are no corners; nothing where they are."""
     row, n = model.row, len(model.row.found)
     begins, kinds = ([segment[at] for segment in row.found] for at in (0, 2))
     missed = _missed_nodes(model)
-    lines = (k for k in model.at if model.kind(k) == LINE)
-    for k in sorted(lines, key=lambda k: data_length(model, k)):
-        if _is_arc(model, k, missed):
+    for k in model.at:
+        if model.kind(k) == LINE and _is_arc(model, k, missed):
             kinds[k] = ARC
             for node in ((k - 1) % n, k):  # which it mends for its neighbours, too
                 missed.pop(node)
     arcs: dict[int, int] = {}
-    for k in () if holds else [k for k, is_off in missed.items() if is_off]:
+    for k in [k for k, is_off in missed.items() if is_off]:
         m = (k + 1) % n
         fillet = _fillet(model, k, m) if kinds[k] == kinds[m] == LINE else None
         if fillet is not None:
