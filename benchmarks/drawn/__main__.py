@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 
 from benchmarks.drawn import random_plates
+from benchmarks.drawn.equal_outlines import equal_table, twins_table
 from benchmarks.drawn.few_points import exported_table, measured_table, organic_table
 from benchmarks.drawn.fillets import fillets_table
 from benchmarks.drawn.limits import limits_table
@@ -67,6 +68,14 @@ in pixels. How many of eight places have the lines and arcs that were drawn and 
 
 """
 
+EQUAL = """
+Six equal outlines of one drawing (`python -m benchmarks.drawn.equal_outlines`), moved, mirrored or
+on a ring, about 40 pixels large in 256, and 400 points each: how many have the lines and arcs that
+were drawn and nothing else, and in how many drawings all six are one to rounding; then outlines of
+two kinds by turns that are nearly equal, which must stay what they are.
+
+"""
+
 MEASURING = """
 The random plates as instruments measure them (`python -m benchmarks.drawn.measuring`): 400 points,
 0.1 % noise without a tolerance, 0.05 % within 0.3 %; at uneven steps, with a stretch that is
@@ -118,7 +127,7 @@ def main() -> None:
     points += f"{limits_table()}{PROFILES}{profiles_table()}{CLEAN}{clean_table()}"
     points += f"{RANDOM}{random_plates.clean_table()}\n{random_plates.noisy_table()}"
     points += f"{NOISY}{random_plates.within_table()}{TRACED}{random_plates.pictures_table()}"
-    points += f"{FILLETS}{fillets_table()}"
+    points += f"{FILLETS}{fillets_table()}{EQUAL}{equal_table()}\n{twins_table()}"
     points += f"{MEASURING}{measuring_table()}{CHAINS}{chains_table()}"
     points += f"{FEW}{measured_table()}{EXPORTED}{exported_table()}{ORGANIC}{organic_table()}"
     print("\n".join([*pictures.texts, points, *pictures.left_out]))

@@ -11,6 +11,7 @@ import numpy as np
 from shapespline.analysis import shared_arcs
 from shapespline.errors import InvalidInputError
 from shapespline.fitting.across import across_outlines
+from shapespline.fitting.alike import read_alike
 from shapespline.fitting.copies import equal_copies
 from shapespline.fitting.repair import uncrossed
 from shapespline.fitting.request import Request
@@ -218,8 +219,11 @@ def _together(
     """Fits under what they keep together, uncrossed; and what that is."""
     allowed = asked.style.regularities
     alone = fits
+    copied = asked.style.character == "drawn" and "equal-copies" in allowed
+    if copied:
+        fits = read_alike(fits, tolerance)
     fits, found = across_outlines(fits, allowed, tolerance)
-    if asked.style.character == "drawn" and "equal-copies" in allowed:
+    if copied:
         fits, equal = equal_copies(fits, tolerance)
         found += equal
     each_is_told = tolerance is not None and all(map(is_, fits, alone))

@@ -89,6 +89,19 @@ def test_copies_may_be_turned_by_right_angles_and_mirrored(linear):
     assert turned.larger <= TOLERANCE
 
 
+@pytest.mark.parametrize("angle", [0.3, 2.0])
+def test_copies_may_be_turned_by_any_angle(angle):
+    drawing = drawn([letter(), moved(letter(0.4), angle, shift=(60, 5))])
+    assert equal_ones(drawing) == [(0, 1)]
+    first, second = drawing
+    assert not any(one.name == "axis-parallel" for one in second.regularities)
+    off = moved(sides(first), angle)[:, None] - sides(second)
+    # Two hundred points tell the angle to a tenth of their noise over the letter's size.
+    assert np.hypot(*off.transpose(2, 0, 1)).min(axis=1).max() < NOISE
+    found = two_sided(second.spline, second.contour.points, closed=True, step=TOLERANCE / 20)
+    assert found.larger <= TOLERANCE
+
+
 def test_what_is_not_equal_stays_as_it_was():
     larger = moved(1.008 * letter(0.2), shift=(50, 0))
     bent = letter(0.2) + np.column_stack([np.zeros(200), 0.1 * np.sin(letter(0.2)[:, 0] / 3)])

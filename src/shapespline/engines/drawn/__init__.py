@@ -7,6 +7,7 @@ from shapespline.engines.drawn.judgement import FEW_ELEMENTS, LITTLE_FREE, POINT
 from shapespline.engines.drawn.observed import ONE_BIT, Observed
 from shapespline.engines.drawn.parts import Drawn, DrawnArc, DrawnLine, FreeRun
 from shapespline.engines.drawn.regularities import NAMES
+from shapespline.engines.drawn.segments import PRICE
 from shapespline.engines.drawn.simplify import simplified
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "NAMES",
     "ONE_BIT",
     "POINTS_EACH",
+    "PRICE",
     "Drawn",
     "DrawnArc",
     "DrawnLine",
