@@ -63,8 +63,9 @@ so many pixels.
 
 FILLETS = """
 Small fillets in pictures of 256 pixels that are not exact (`python -m benchmarks.drawn.fillets`): a
-box of 200 x 120 pixels and a hexagon of 100 about the middle, level or turned by 17 degrees, radii
-in pixels. How many of eight places have the lines and arcs that were drawn and nothing else.
+box of 200 x 120 pixels, a hexagon and an octagon of 100 about the middle, level or turned by 17
+degrees, radii in pixels. How many of eight places have the lines and arcs that were drawn and
+nothing else.
 
 """
 

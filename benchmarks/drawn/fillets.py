@@ -1,4 +1,4 @@
-"""Small fillets in pictures that are not exact: boxes and hexagons, level and turned.
+"""Small fillets in pictures that are not exact: boxes, hexagons and octagons, level and turned.
 
     python -m benchmarks.drawn.fillets
 
@@ -23,12 +23,18 @@ if TYPE_CHECKING:
     from benchmarks.drawn.truth import Outline
 
 # Pixels: of fillets, of the picture; degrees.
-RADII, SIZE, TURNS = (3.0, 4.0, 5.0, 6.0, 8.0), 256, (0.0, 17.0)
+RADII, SIZE, TURNS = (3.0, 4.0, 5.0, 6.0, 8.0, 12.0), 256, (0.0, 17.0)
 PLACES = 8
-_HEXAGON = [(100 * np.cos(k * np.pi / 3), 100 * np.sin(k * np.pi / 3)) for k in range(6)]
+
+
+def _regular(n: int) -> list[tuple[float, float]]:
+    return [(100 * np.cos(angle), 100 * np.sin(angle)) for angle in 2 * np.pi * np.arange(n) / n]
+
+
 SHAPES: dict[str, Callable[[float], Outline]] = {
     "box": lambda radius: box(200.0, 120.0, radius),
-    "hexagon": lambda radius: rounded(_HEXAGON, radius),
+    "hexagon": lambda radius: rounded(_regular(6), radius),
+    "octagon": lambda radius: rounded(_regular(8), radius),
 }
 PICTURES: dict[str, Callable[[list[Outline]], Picture]] = {
     "exact coverage": lambda drawn: exact(drawn, SIZE),

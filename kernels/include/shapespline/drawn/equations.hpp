@@ -157,9 +157,10 @@ struct Images {
         const std::array<std::int64_t, 8> places{i, i + 1, i + 2, j, j + 1, j + 2, at, at + 1};
         const auto [cx, cy, r, dx, dy, s, u, v] = rows.at(places);
         const auto [px, py] = angle ? turned(cx, cy, u, v) : mirrored(cx, cy, u, v);
+        // The radii first: centres of arcs that touch their neighbours follow from these.
+        rows.add(s - r, places);
         rows.add(dx - px, places);
         rows.add(dy - py, places);
-        rows.add(s - r, places);
     }
     template <class T>
     std::pair<T, T> turned(const T &x, const T &y, const T &u, const T &v) const {

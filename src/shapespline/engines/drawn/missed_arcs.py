@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 # A line may be an arc if it is at most so many times as long as an arc beside it that it meets at
 # such an angle, or misses; between lines an arc has at least so many points, and either line is so
 # many times as long as what half of the arc takes of it (DRA-62).
-LONGEST, BREAK, FEWEST, SHORTEST = 1.5, np.radians([3.0, 20.0]), 3, 3.0
+LONGEST, BREAK, FEWEST, SHORTEST = 1.5, np.radians([3.0, 30.0]), 3, 3.0
 
 
 def rows_with_missed_arcs(model: Model) -> Iterator[Segments]:
@@ -71,8 +71,19 @@ def _is_arc(model: Model, k: int, missed: dict[int, bool]) -> bool:
     arcs = [data_length(model, one) for one in (before, after) if model.kind(one) == ARC]
     if arcs:
         return length <= LONGEST * max(arcs)
+    sides = min(data_length(model, one) for one in (before, after))
+    if sides > SHORTEST * length:
+        fillets = (data_length(model, one) for one in fillets_of(model.row))
+        return length <= LONGEST * max(fillets, default=0.0)
     are_off = missed[before] and missed[k]
     return are_off and length < min(data_length(model, one) for one in (before, after))
+
+
+def fillets_of(row: Segments) -> list[int]:
+    """Arcs between two lines each, of a closed outline."""
+    kinds, n = [segment.kind for segment in row.found], len(row.found)
+    arcs = (k for k in range(n) if kinds[k] == ARC)
+    return [k for k in arcs if kinds[k - 1] == kinds[(k + 1) % n] == LINE]
 
 
 def _fillet(model: Model, k: int, m: int) -> tuple[int, int] | None:

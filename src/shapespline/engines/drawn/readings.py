@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from shapespline.engines.drawn.judgement import is_enough, share
+from shapespline.engines.drawn.missed_arcs import fillets_of, rows_with_missed_arcs
 from shapespline.engines.drawn.model import Model
-from shapespline.engines.drawn.segments import ARC, FREE, segmented
+from shapespline.engines.drawn.segments import ARC, FREE, LINE, segmented
 from shapespline.engines.drawn.supposed import NEARLY
 from shapespline.engines.drawn.whole_circle import ROUND
 
@@ -30,6 +31,9 @@ IMMENSE = 20.0
 # What such a telling holds in part only gives way to the exact one, unless that is so many times
 # longer, as chords of curves are (DRA-29).
 CHORDS = 1.33
+# Arcs between lines that a picture shows are no errors where there is one for so many of the lines,
+# or more (DRA-64).
+OFTEN = 0.5
 # Part of exact points that lines and arcs make up where the rest may be such (DRA-49).
 MOST_EXACT = 0.8
 
@@ -56,6 +60,9 @@ def read_as(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segmen
     again = segmented(less, row) if row.n_parameters(LONG * seen.pixel) >= LEAST_SAVED else row
     if _is_shorter(again, row, seen.pixel) or _is_straighter(again, row, seen):
         long = LONG * seen.pixel
+        fillets = _with_fillets(seen, row)
+        if _has_fillets_more(fillets, again):
+            yield seen, fillets, True
         if row.n_parameters(long) <= CHORDS * again.n_parameters(long):
             yield less, again, True
             yield seen, row, False
@@ -83,6 +90,30 @@ def _nearly_exact(seen: Observed, row: Segments) -> Iterator[tuple[Observed, Seg
     again = segmented(nearly)
     if share(again) == 1.0:
         yield nearly, again, True
+
+
+def _with_fillets(seen: Observed, row: Segments) -> Segments:
+    """Lines and arcs, some of these between two lines, with other arcs that its points tell."""
+    if not fillets_of(row) or any(segment.kind == FREE for segment in row.found):
+        return row
+    return next(rows_with_missed_arcs(Model.of(seen, row)), row)
+
+
+def _has_fillets_more(row: Segments, again: Segments) -> bool:
+    """Whether all that lines and arcs have more than others is arcs, at every other corner or more.
+
+    Chords of curves are lines, and parts of one arc lie side by side; errors round few corners.
+    """
+    (lines, fillets, others), its = _told(row), _told(again)
+    is_more = fillets > its[1] and lines <= its[0] and others <= its[2]
+    is_many = fillets >= OFTEN * lines
+    return is_more and is_many and all(segment.kind != FREE for segment in row.found)
+
+
+def _told(row: Segments) -> tuple[int, int, int]:
+    """How many lines, arcs between two lines, and other arcs there are."""
+    kinds, n_fillets = [segment.kind for segment in row.found], len(fillets_of(row))
+    return kinds.count(LINE), n_fillets, kinds.count(ARC) - n_fillets
 
 
 def _is_straighter(again: Segments, row: Segments, seen: Observed) -> bool:

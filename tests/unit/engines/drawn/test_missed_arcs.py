@@ -46,6 +46,21 @@ def test_arcs_between_fillets_are_no_lines():
     assert kinds == {"line": 20, "arc": 60}
 
 
+@pytest.mark.parametrize(("n", "radius"), [(8, 8), (10, 8), (9, 10), (12, 12)])
+@pytest.mark.parametrize("turn", [0.3, 0.0])
+def test_fillets_at_every_corner_of_a_polygon_are_no_errors_of_its_picture(n, radius, turn):
+    # Half a pixel between each and its corner: lines alone, taken for less exact, are much shorter
+    # to tell, and contradict their points; so they became chamfers or curves.
+    angle = turn + 2 * np.pi * np.arange(n) / n
+    corners = 100 * np.column_stack([np.cos(angle), np.sin(angle)])
+    moved = np.random.default_rng(2).uniform(-0.5, 0.5, 2) + SIZE / 2
+    kinds, fit = kinds_of([one.moved(1.0, 0.0, moved) for one in rounded(corners, radius)])
+    assert kinds == {"line": n, "arc": n}
+    radii = [piece.arc.radius for piece in fit.pieces if piece.kind == "arc"]
+    # What is known to a hundredth of a pixel is how far the middle of an arc is from its corner.
+    assert abs(radii[0] - radius) * (1 / np.cos(np.pi / n) - 1) < 0.01
+
+
 def filleted(outline, *, foot, tip):
     """A polygon of many edges: the outline with arcs that touch both sides of its corners."""
     sides = np.concatenate([element.points(1e-3) for element in outline])

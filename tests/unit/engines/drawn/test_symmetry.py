@@ -1,9 +1,13 @@
-"""Mirrors that cannot be are told by how far nodes are from their middle."""
+"""Outlines that are their own images: which mirrors are tried, and what is level then."""
 
 from __future__ import annotations
 
 import numpy as np
+import pytest
+from benchmarks.drawn.renderers import exact
+from benchmarks.drawn.shapes import rounded
 
+import shapespline as ss
 from shapespline.engines.drawn.symmetry import _axis, _turns_of_mirrors
 
 
@@ -23,3 +27,17 @@ def test_no_mirror_within_reach_is_left_out():
                 n_within += 1
                 assert able[turn]
     assert 150 < n_within <= n_left < 2 * n_within  # few are looked at in vain
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_level_edges_of_a_nut_with_small_fillets_are_level(seed):
+    # Centres of its arcs follow from their neighbours but for rounding, which told the direction
+    # of all edges to 1e-9 radians where they were told before the radii.
+    angle = np.pi / 6 + np.pi / 3 * np.arange(6)
+    corners = 100 * np.column_stack([np.cos(angle), np.sin(angle)])
+    moved = np.random.default_rng(seed).uniform(-0.5, 0.5, 2) + 128
+    nut = [one.moved(1.0, 0.0, moved) for one in rounded(corners, 4.0)]
+    fit = ss.fit_shape(ss.trace(exact([nut], 256)), character="drawn").fits[0]
+    assert {one.name for one in fit.regularities} >= {"rotation", "axis-parallel"}
+    edges = [piece.control_points for piece in fit.pieces if piece.kind == "line"]
+    assert sum(bool((np.ptp(edge, axis=0) == 0.0).any()) for edge in edges) == 2
