@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.tracing.corners import around
-from shapespline.tracing.sides import BLURRED
-from shapespline.tracing.touching import Arcs
+from shapespline.tracing.coverage import border_coverage
+from shapespline.tracing.sides import BLURRED, Ways, turns_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -85,6 +85,26 @@ class ArcPixels(NamedTuple):
 
     @classmethod
     def of(
+        cls,
+        outlines: Sequence[FloatArray],
+        drawn: Sequence[bool],
+        field: Field,
+        inks: FloatArray,
+        soft: Softness,
+    ) -> ArcPixels | None:
+        """As those of its outlines tell that are where they were drawn; None if they do not."""
+        used = np.flatnonzero(drawn).tolist()
+        if not used:
+            return None
+        some = [outlines[k] for k in used]
+        ways = Ways(some, [True] * len(some))
+        own, at, _ = turns_of(ways)
+        covered = border_coverage(outlines, *field.shape)
+        border = Border.of(some, inks[used], field)
+        return cls._told(field, soft, ways.at(own, at), border, covered)
+
+    @classmethod
+    def _told(
         cls, field: Field, soft: Softness, turns: FloatArray, border: Border, covered: Covered
     ) -> ArcPixels | None:
         """As its borders tell, most of which are where they were drawn; None if they tell nothing.
@@ -108,18 +128,15 @@ class ArcPixels(NamedTuple):
             return some
         return some._replace(error=max(field.noise, error), exact=False)
 
-    def missed(self, arcs: Arcs, covered: Covered, ink: FloatArray) -> Missed:
-        """Of a drawing; ``ink`` is what that of each arc is worth."""
+    def missed(self, points: FloatArray, covered: Covered, ink: FloatArray) -> Missed:
+        """Of a drawing, along lines of points; ``ink`` is what that of each is worth."""
         parts = np.array_split(np.arange(len(ink)), len(ink) // TOGETHER + 1)
-        found = [
-            self._missed(Arcs(*(one[some] for one in arcs)), covered, ink[some]) for some in parts
-        ]
+        found = [self._missed(points[some], covered, ink[some]) for some in parts]
         return Missed(*(np.concatenate(column) for column in zip(*found, strict=True)))
 
-    def _missed(self, arcs: Arcs, covered: Covered, ink: FloatArray) -> Missed:
+    def _missed(self, points: FloatArray, covered: Covered, ink: FloatArray) -> Missed:
         height, _ = shape = self.field.shape
         reach = REACH + ceil(self.blur)
-        points = arcs.points(arcs.radii)
         middles = 0.5 * (points.min(axis=1) + points.max(axis=1))
         row, column, inside = around(middles, shape, reach)
         x_off = (column[:, 0] + 0.5)[:, None] - points[..., :1]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from shapespline.monitor import silent
+from shapespline.tracing.arc_pixels import ArcPixels
 from shapespline.tracing.corners import sharpened
 from shapespline.tracing.dots import dotted
 from shapespline.tracing.edges import NOISIEST, drawn_shares, level_shares, no_edges
@@ -107,7 +108,9 @@ def drawn_lines(
     outlines = sharpened(outlines, level_lines, cornered, field, soft, inks)
     if ragged:
         outlines = with_corners_of_bits(outlines, level_lines, of_bits)
-    outlines = rounded(outlines, cornered, field, inks, soft)
+    pixels = ArcPixels.of(outlines, cornered, field, inks, soft)
+    if pixels is not None:
+        outlines = rounded(outlines, cornered, pixels, inks)
     if not soft.blur and field.noise <= NOISIEST:
         outlines, dots = dotted(outlines, level_lines, field, inks)
         accuracies = np.where(dots, DRAWN_ACCURACY, accuracies).tolist()

@@ -19,40 +19,34 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from shapespline.tracing.arc_pixels import ArcPixels, Border
+from shapespline.tracing.arc_sides import (
+    LARGEST,
+    NEARS,
+    SIDES,
+    Reaches,
+    next_turns,
+    sides_found,
+)
 from shapespline.tracing.corners import UNCERTAIN, UNCERTAIN_BLUR, with_corners
 from shapespline.tracing.coverage import border_coverage
 from shapespline.tracing.sides import NONE, Corners, Turns, Ways, bends_of, length_of, turns_of
-from shapespline.tracing.touching import ARC_POINTS, NEARLY_BACK, Touching
+from shapespline.tracing.touching import ARC_POINTS, NEARLY_BACK
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from shapespline.tracing.arc_pixels import Missed
+    from shapespline.tracing.arc_pixels import ArcPixels, Missed
     from shapespline.tracing.coverage import Covered
-    from shapespline.tracing.field import Field
-    from shapespline.tracing.softness import Softness
-    from shapespline.tracing.touching import Arcs
+    from shapespline.tracing.touching import Arcs, Touching
     from shapespline.typing import BoolArray, FloatArray, IntArray
 
-# Radii of arcs that are told, pixels: of smaller ones a corner is left, larger ones are told by
-# their own points (TRC-29).
-SMALLEST, LARGEST = 0.65, 8.0
-# Lengths along the outline from the middle of an arc to where its sides are looked at, which it has
-# to end before by so much; how far sides are looked at, how far from the next turn they end, and
-# how far they may be from a line in the mean (TRC-29).
-NEARS, BEFORE = (1.7, 2.1, 2.5, 3.0, 3.6, 4.3, 5.2, 6.3, 7.5), 0.35
-SIDES, CLEAR, STRAIGHT = (4.0, 2.0, 1.0), 1.25, 0.015
-# In pictures that are not exact sides are looked at as far as this first, and no nearer than so
-# many times what pixels are off by; all lengths grow by so much for each pixel of blur (TRC-47).
-LONG_SIDES, STEADY, SPREAD = (20.0, 10.0, 6.0), 100.0, 1.5
+# Radii of arcs that are told, pixels: of smaller ones a corner is left (TRC-29).
+SMALLEST = 0.65
 # There arcs miss the pixels by no more than so many times what the outline does, or what is usual;
 # a corner in their place misses them by so many deviations more. Their radius is at least this, so
 # much more for each pixel of blur, and they take off a corner so many times the ink that a blur
 # leaves unknown there (TRC-47).
 NO_WORSE, SURE, SMALLEST_SOFT, SMALLEST_BLURRED, KNOWN = 1.4, 5.0, 1.0, 1.25, 2.0
-# Points of sides are disturbed so far beyond an arc: its pixels reach there.
-DISTURBED = 0.8
 # Rounds of Newton's method, and their longest step.
 ROUNDS, LONGEST_STEP = 3, 1.0
 # Shorter steps tell that an arc will not agree with its pixels, if all of them are.
@@ -71,18 +65,16 @@ OF_CORNER, AGREES = 0.12, 0.006
 MISSED, MISSED_NOISE, ABOUT = 0.02, 3.0, 2
 # What misses them by more is not tried again from the same sides.
 HOPELESS = 0.05
-# Points of each side, and between it and its arc.
-SAMPLES, BETWEEN = 9, 2
-_SHARES = np.linspace(0.0, 1.0, SAMPLES)
+# Points between each side and its arc.
+BETWEEN = 2
 _BETWEEN = (np.arange(BETWEEN) + 1.0)[:, None] / (BETWEEN + 1)
 
 
 def rounded(
     outlines: Sequence[FloatArray],
     drawn: Sequence[bool],
-    field: Field,
+    pixels: ArcPixels,
     inks: FloatArray,
-    soft: Softness,
 ) -> list[FloatArray]:
     """Outlines with the arcs of few pixels that the picture shows; all others as they are.
 
@@ -92,24 +84,14 @@ def rounded(
         Closed, in picture coordinates, ink on the left.
     drawn : sequence of bool
         Which of them lie where the picture's grey tells.
-    field : Field
+    pixels : ArcPixels
     inks : ndarray, shape (n,)
         What the ink of each is worth, of that of the picture.
-    soft : Softness
     """
-    used = np.flatnonzero(drawn).tolist()
-    if not used:
-        return list(outlines)
-    now, some = border_coverage(outlines, *field.shape), [outlines[k] for k in used]
-    ways = Ways(some, [True] * len(some))
-    own, at, _ = turns_of(ways)
-    border = Border.of(some, inks[used], field)
-    pixels = ArcPixels.of(field, soft, ways.at(own, at), border, now)
-    if pixels is None:
-        return list(outlines)
+    now = border_coverage(outlines, *pixels.field.shape)
     others = _rounded(outlines, drawn, pixels, inks, now, turns_of)
     if others is not outlines:
-        now = border_coverage(others, *field.shape)
+        now = border_coverage(others, *pixels.field.shape)
     return list(_rounded(others, drawn, pixels, inks, now, _half_turns_of))
 
 
@@ -128,7 +110,7 @@ def _rounded(
     turns_in: Callable[[Ways], Turns],
 ) -> Sequence[FloatArray]:
     """Outlines with the arcs in some of their turns; the same if there are none."""
-    field, reaches = pixels.field, _Reaches.of(pixels)
+    field, reaches = pixels.field, Reaches.of(pixels)
     wrong_pixels = _wrong_pixels(now, pixels)
     used = _looked_at(outlines, drawn, wrong_pixels)
     if not used:
@@ -139,7 +121,7 @@ def _rounded(
     if not turn.any():
         return outlines
     closed, whose = [True] * len(outlines), np.array(used)[own]
-    after, ahead = _next(turns, ways)
+    after, ahead = next_turns(turns, ways)
     room = np.minimum(ahead, ahead[np.argsort(after)])
     reach = np.zeros(len(at))
     found = NONE._replace(runs=np.empty((0, ARC_POINTS + 2 * BETWEEN, 2)))
@@ -152,7 +134,7 @@ def _rounded(
         return border_coverage(with_corners(outlines, found.joined(corners), closed), *field.shape)
 
     for nearest in (False, True):
-        some, near, touching, shift = _sides_found(
+        some, near, touching, shift = sides_found(
             ways, turns, room, np.where(left, least, np.inf), reaches, nearest=nearest
         )
         ink = inks[whose[some]]
@@ -164,12 +146,12 @@ def _rounded(
         shift, ink = shift[wrong], ink[wrong]
         place = whose[some], at[some]
         arcs, missed = _approached(touching, shift, place, ink, pixels, covered, reaches)
-        off, was_off = missed.mean, pixels.missed(arcs, now, ink).mean
+        off, was_off = missed.mean, pixels.missed(arcs.along, now, ink).mean
         if pixels.exact:
             good = _agree(arcs, missed, was_off, pixels)
         else:
             corners = _corners(place, touching, arcs, touching.apexes(arcs), reaches)
-            off_corner = pixels.missed(arcs, covered(corners), ink).mean
+            off_corner = pixels.missed(arcs.along, covered(corners), ink).mean
             good = _agree_softly(arcs, missed, was_off, off_corner, pixels)
         least[some] = arcs.half_length + reaches.before
         good &= (near >= least[some]) & (arcs.radii <= LARGEST)
@@ -183,7 +165,7 @@ def _rounded(
         clear = clear or bool((good & ~is_end).any())
         if is_end.any() and not clear:
             square = _corners(place, touching, arcs, touching.square_ends(arcs), reaches)
-            missed = pixels.missed(arcs, covered(square.chosen(is_end)), ink)
+            missed = pixels.missed(arcs.along, covered(square.chosen(is_end)), ink)
             clear = bool((missed.mean > np.maximum(off, AGREES))[is_end].any())
         found = found.joined(corners.chosen(good))
         left[some] = ~good
@@ -197,7 +179,7 @@ def _miss(arcs: Arcs, now: Covered, ink: FloatArray, pixels: ArcPixels) -> BoolA
     """Where pixels along arcs miss the outline; in a picture that is not exact all may."""
     if not pixels.exact:
         return np.ones(len(ink), dtype=bool)
-    return pixels.missed(arcs, now, ink).mean > AGREES + TOLD_NOISE * pixels.error
+    return pixels.missed(arcs.along, now, ink).mean > AGREES + TOLD_NOISE * pixels.error
 
 
 def _agree(arcs: Arcs, missed: Missed, was_off: FloatArray, pixels: ArcPixels) -> BoolArray:
@@ -226,28 +208,6 @@ def _agree_softly(
     good &= off**2 - error**2 <= BETTER**2 * np.maximum(off_corner**2 - error**2, 0.0)
     good &= arcs.cut_off >= KNOWN * (UNCERTAIN + UNCERTAIN_BLUR * pixels.blur)
     return good & (arcs.radii >= SMALLEST_SOFT + SMALLEST_BLURRED * pixels.blur)
-
-
-class _Reaches(NamedTuple):
-    """How far arcs disturb the outline, and from where to where and how straight its sides are."""
-
-    nears: Sequence[float]
-    before: float
-    sides: Sequence[float]
-    clear: float
-    straight: float
-    disturbed: float
-
-    @classmethod
-    def of(cls, pixels: ArcPixels) -> _Reaches:
-        """In a picture."""
-        if pixels.exact:
-            return cls(NEARS, BEFORE, SIDES, CLEAR, STRAIGHT, DISTURBED)
-        spread = SPREAD * pixels.blur
-        nears = [near + spread for near in NEARS]
-        sides = [side for side in (*LONG_SIDES, *SIDES) if side >= STEADY * pixels.error]
-        straight = STRAIGHT + pixels.error
-        return cls(nears, BEFORE + spread, sides, CLEAR + spread, straight, DISTURBED + spread)
 
 
 class _WrongPixels(NamedTuple):
@@ -290,59 +250,6 @@ def _wrong_pixels(now: Covered, pixels: ArcPixels) -> _WrongPixels:
     return _WrongPixels(keys, height, width)
 
 
-def _next(turns: Turns, ways: Ways) -> tuple[IntArray, FloatArray]:
-    """The turn behind each one along its outline, and how far behind."""
-    own, at, _ = turns
-    k, first = np.arange(len(own)), np.searchsorted(own, own)
-    last = np.searchsorted(own, own, side="right") - 1
-    after = np.where(k < last, k + 1, first)
-    return after, at[after] - at + np.where(k < last, 0.0, ways.lengths[own])
-
-
-def _sides_found(
-    ways: Ways,
-    turns: Turns,
-    room: FloatArray,
-    least: FloatArray,
-    reaches: _Reaches,
-    *,
-    nearest: bool,
-) -> tuple[IntArray, FloatArray, Touching, FloatArray]:
-    """Turns whose sides are straight, from where, circles that touch them, and their numbers.
-
-    From the longest sides that allow a circle through the outline's middle, or from the ``nearest``
-    ones, but no nearer than ``least``. ``room`` is there to the next turn.
-    """
-    own, at, _ = turns
-    # All lengths and distances at once.
-    tried = np.meshgrid(reaches.sides, reaches.nears, np.flatnonzero(least < np.inf), indexing="ij")
-    size, near, some = (np.ravel(one.swapaxes(0, int(nearest))) for one in tried)
-    used = near >= least[some]
-    used &= near + size <= room[some] - reaches.clear
-    near, size, some = near[used], size[used], some[used]
-    sides, fit = [], np.ones(len(some), dtype=bool)
-    for sign in (-1.0, 1.0):
-        t = near[:, None] + _SHARES * size[:, None]
-        seen = ways.at(np.broadcast_to(own[some, None], t.shape), at[some, None] + sign * t)
-        middle = seen.mean(axis=1)
-        x, y = (seen - middle[:, None]).transpose(2, 0, 1)
-        along = sign * (seen[:, -1] - seen[:, 0])
-        angle = 0.5 * np.arctan2(2 * (x * y).sum(axis=1), (x**2 - y**2).sum(axis=1))
-        u = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        u *= np.where((u * along).sum(axis=1) < 0, -1.0, 1.0)[:, None]
-        fit &= ((x * u[:, 1:] - y * u[:, :1]) ** 2).mean(axis=1) <= reaches.straight**2
-        sides.append((middle, u))
-    near, some = near[fit], some[fit]
-    touching = Touching([(p[fit], u[fit]) for p, u in sides])
-    number = touching.through(ways.at(own[some], at[some]))
-    arcs = touching.arcs(number)
-    good = np.flatnonzero((near >= arcs.half_length + reaches.before) & (arcs.radii <= LARGEST))
-    # Of each turn what comes first.
-    some, which = np.unique(some[good], return_index=True)
-    good = good[which]
-    return some, near[good], touching.chosen(good), number[good]
-
-
 def most_missed(error: float) -> float:
     """What pixels that agree may miss an arc by in the mean, where others do by such an error."""
     return TOLD + TOLD_NOISE * error
@@ -355,13 +262,13 @@ def _approached(
     ink: FloatArray,
     pixels: ArcPixels,
     covered: Callable[[Corners], Covered],
-    reaches: _Reaches,
+    reaches: Reaches,
 ) -> tuple[Arcs, Missed]:
     """Arcs with the pixels' ink beside them, by Newton's method; what misses them, and where."""
     for _ in range(ROUNDS):
         arcs = touching.arcs(shift)
         corners = _corners(place, touching, arcs, arcs.points(arcs.chord_radii)[:, 1:-1], reaches)
-        missed = pixels.missed(arcs, covered(corners), ink)
+        missed = pixels.missed(arcs.along, covered(corners), ink)
         step = touching.step_for(missed.ink.sum(axis=1), arcs)
         shift = shift + np.clip(step, -LONGEST_STEP, LONGEST_STEP)
         lost = (np.abs(step) <= STILL) & (missed.mean > 2.0 * most_missed(pixels.error))
@@ -375,7 +282,7 @@ def _corners(
     touching: Touching,
     arcs: Arcs,
     inner: FloatArray,
-    reaches: _Reaches,
+    reaches: Reaches,
 ) -> Corners:
     """Arcs instead of what lies between their sides, with other points between their ends."""
     points = arcs.points(arcs.radii)

@@ -34,6 +34,11 @@ class Arcs(NamedTuple):
         return self.centres[:, None] + radii[:, None, None] * ways
 
     @property
+    def along(self) -> FloatArray:
+        """Points of each."""
+        return self.points(self.radii)
+
+    @property
     def half_length(self) -> FloatArray:
         """From the middle of each to its end."""
         return 0.5 * self.radii * np.abs(self.turns)
