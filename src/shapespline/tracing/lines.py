@@ -12,6 +12,7 @@ from shapespline.tracing.arc_pixels import ArcPixels
 from shapespline.tracing.corners import sharpened
 from shapespline.tracing.dots import dotted
 from shapespline.tracing.edges import NOISIEST, drawn_shares, level_shares, no_edges
+from shapespline.tracing.ends import squared
 from shapespline.tracing.grain import LEAST_ACROSS, squareness, without_grain
 from shapespline.tracing.inks import inks_of, moved_to_own
 from shapespline.tracing.one_bit import (
@@ -111,6 +112,7 @@ def drawn_lines(
     pixels = ArcPixels.of(outlines, cornered, field, inks, soft)
     if pixels is not None:
         outlines = rounded(outlines, cornered, pixels, inks)
+        outlines = squared(outlines, cornered, pixels, inks)
     if not soft.blur and field.noise <= NOISIEST:
         outlines, dots = dotted(outlines, level_lines, field, inks)
         accuracies = np.where(dots, DRAWN_ACCURACY, accuracies).tolist()
