@@ -19,6 +19,7 @@ from benchmarks.drawn.measuring import measuring_table
 from benchmarks.drawn.page import write_page
 from benchmarks.drawn.pixel_chains import chains_table
 from benchmarks.drawn.profiles import clean_table, profiles_table
+from benchmarks.drawn.stroke_ends import stroke_ends_table
 from benchmarks.drawn.tables import pictures_tables, recovered_table, sampled_table
 
 LIMITS = """Errors over those of least squares that are told which points are whose, what is a line
@@ -66,6 +67,14 @@ Small fillets in pictures of 256 pixels that are not exact (`python -m benchmark
 box of 200 x 120 pixels, a hexagon and an octagon of 100 about the middle, level or turned by 17
 degrees, radii in pixels. How many of eight places have the lines and arcs that were drawn and
 nothing else.
+
+"""
+
+ENDS = """
+Ends of strokes of 1.5 to 5 pixels (`python -m benchmarks.drawn.stroke_ends`): bars 40 pixels long,
+feet of a T and an I, combs, slots with round ends, level and turned by 17 degrees. How many of
+eight places have the lines and arcs that were drawn and nothing else, and how many pixels their
+corners are off, the median and the largest.
 
 """
 
@@ -128,7 +137,8 @@ def main() -> None:
     points += f"{limits_table()}{PROFILES}{profiles_table()}{CLEAN}{clean_table()}"
     points += f"{RANDOM}{random_plates.clean_table()}\n{random_plates.noisy_table()}"
     points += f"{NOISY}{random_plates.within_table()}{TRACED}{random_plates.pictures_table()}"
-    points += f"{FILLETS}{fillets_table()}{EQUAL}{equal_table()}\n{twins_table()}"
+    points += f"{FILLETS}{fillets_table()}{ENDS}{stroke_ends_table()}"
+    points += f"{EQUAL}{equal_table()}\n{twins_table()}"
     points += f"{MEASURING}{measuring_table()}{CHAINS}{chains_table()}"
     points += f"{FEW}{measured_table()}{EXPORTED}{exported_table()}{ORGANIC}{organic_table()}"
     print("\n".join([*pictures.texts, points, *pictures.left_out]))
