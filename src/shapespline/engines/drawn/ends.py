@@ -235,5 +235,4 @@ def length_along(model: Model, k: int) -> float:
 
 def data_length(model: Model, k: int) -> float:
     """Length of the data of a segment."""
-    s, (i, j, _) = model.row.stations, model.row.found[k]
-    return float(s[j] - s[i])
+    return model.lengths[k]

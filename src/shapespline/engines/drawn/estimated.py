@@ -87,9 +87,9 @@ def estimated(
     """
     seen, ends, n_wrong = model.seen, model.ends, 0
     while n_wrong < min(len(row.found), MOST_WRONG):
-        model = Model.of(seen, row, model, ends)
         if not is_enough(row):
             return None
+        model = Model.of(seen, row, model, ends)
         bad = misfitting(model, tolerance, each_alone=True)  # which is soon done
         if not bad:
             found = Search(model, NAMES, wide).run()
@@ -99,9 +99,10 @@ def estimated(
                 return Estimated(model, found, told, wide)
             if not told and not may_be_short(model, tolerance):
                 return None
-        if whole:
+        n_wrong += len(bad)
+        if whole or n_wrong >= MOST_WRONG:
             return None
-        row, n_wrong = supported(_without(model, bad, tolerance), seen.closed), n_wrong + len(bad)
+        row = supported(_without(model, bad, tolerance), seen.closed)
     return None
 
 

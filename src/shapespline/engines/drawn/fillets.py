@@ -120,8 +120,9 @@ def _best_between(
     model: Model, a: int, inner: tuple[int, ...], b: int, fewest: int
 ) -> Fillet | None:
     """The best fillet between two edges, if what lies there is shorter and turns so."""
-    shorter = min(data_length(model, a), data_length(model, b))
-    if any(data_length(model, k) >= shorter for k in inner):
+    lengths = model.lengths
+    shorter = min(lengths[a], lengths[b])
+    if any(lengths[k] >= shorter for k in inner):
         return None
     turn = _Turn.of(model, a, inner, b, fewest=fewest)
     return None if turn is None else turn.best()

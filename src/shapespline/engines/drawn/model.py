@@ -125,6 +125,12 @@ class Model:
         return max((o + 2 + (self.kind(k) == ARC) for k, o in self.at.items()), default=0)
 
     @cached_property
+    def lengths(self) -> list[float]:
+        """Of the data of each segment."""
+        s = self.row.stations.tolist()
+        return [s[j] - s[i] for i, j, _ in self.row.found]
+
+    @cached_property
     def extent(self) -> float:
         """Of the outline."""
         return 2.0 * self.seen.box[1]
