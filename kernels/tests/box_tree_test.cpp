@@ -64,5 +64,16 @@ TEST(all_pairs_of_items_whose_boxes_meet_are_visited_once) {
                 CHECK(visits[i * count + k] <= 1);
                 if (boxes[i].meets(boxes[k])) CHECK(visits[i * count + k] == 1);
             }
+        // What lies in 20 .. 70 from the first to the last item is left out, all else is not.
+        const auto apart = [](std::size_t first, std::size_t last) {
+            return first >= 20 && last <= 70;
+        };
+        std::vector<int> again(count * count, 0);
+        tree.visit_pairs([&](std::size_t i, std::size_t k) { ++again[i * count + k]; }, apart);
+        for (int i = 0; i < count; ++i)
+            for (int k = i + 1; k < count; ++k) {
+                CHECK(again[i * count + k] <= visits[i * count + k]);
+                if (!apart(i, k)) CHECK(again[i * count + k] == visits[i * count + k]);
+            }
     }
 }

@@ -40,6 +40,30 @@ TEST(boxes_miss_no_crossing_pair) {
     CHECK(total > 1000);
 }
 
+TEST(rows_that_go_on_to_one_side_are_left_out_alone) {
+    // Long rows to one side and back, some of which cross others, and steps straight up and down.
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> step(0.1, 1.0), rise(-1.5, 1.5);
+    std::bernoulli_distribution turns(0.05), stands(0.1);
+    int total = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        std::vector<Vec2> vertices{{0.0, 0.0}};
+        double way = 1.0;
+        for (int i = 0; i < 150; ++i) {
+            const Vec2 last = vertices.back();
+            if (turns(random)) way = -way;
+            const bool stood = i > 0 && last.x == vertices[i - 1].x;
+            const double along = !stood && stands(random) ? 0.0 : way * step(random);
+            vertices.push_back({last.x + along, last.y + rise(random)});
+        }
+        if (trial % 2)
+            for (Vec2 &vertex : vertices) vertex = {vertex.y, vertex.x};
+        CHECK(counted(vertices) == counted_by_pairs(vertices));
+        total += counted(vertices);
+    }
+    CHECK(total > 100);
+}
+
 TEST(ways_through_a_vertex_cross_once_and_touching_ones_evenly) {
     // Down through the vertex (2, 0) of a horizontal way, and down to it and up again.
     CHECK(counted({{0, 0}, {2, 0}, {4, 0}, {4, 2}, {2, 2}, {2, -1}}) == 1);

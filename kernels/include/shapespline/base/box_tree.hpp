@@ -100,14 +100,15 @@ class BoxTree {
         }
     }
 
-    // Calls visit(i, k), i < k, for all pairs of items whose boxes may meet.
-    template <class Visit>
-    void visit_pairs(Visit &&visit) const {
+    // Calls visit(i, k), i < k, for all pairs of items whose boxes may meet; none of those from an
+    // item to another that `apart(first, last)` leaves out.
+    template <class Visit, class Apart>
+    void visit_pairs(Visit &&visit, Apart &&apart) const {
         std::vector<std::pair<std::size_t, std::size_t>> stack{{1, 1}};
         while (!stack.empty()) {
             const auto [a, b] = stack.back();  // of one level
             stack.pop_back();
-            if (!boxes_[a].meets(boxes_[b])) continue;
+            if (!boxes_[a].meets(boxes_[b]) || apart(first_item(a), last_item(b))) continue;
             if (a >= n_leaves_) {
                 const auto from = [&](std::size_t i) {
                     visit_leaf(b - n_leaves_, [&](std::size_t k) { if (i < k) visit(i, k); });
@@ -121,9 +122,23 @@ class BoxTree {
             if (a != b) stack.emplace_back(2 * a + 1, 2 * b);
         }
     }
+    template <class Visit>
+    void visit_pairs(Visit &&visit) const {
+        visit_pairs(visit, [](std::size_t, std::size_t) { return false; });
+    }
 
   private:
     static constexpr std::size_t kLeafSize = 4;
+
+    // Of a node whose box is not empty.
+    std::size_t first_item(std::size_t node) const {
+        const int level = std::countl_zero(node) - std::countl_zero(n_leaves_);
+        return ((node << level) - n_leaves_) * kLeafSize;
+    }
+    std::size_t last_item(std::size_t node) const {
+        const int level = std::countl_zero(node) - std::countl_zero(n_leaves_);
+        return std::min((((node + 1) << level) - n_leaves_) * kLeafSize, n_items_) - 1;
+    }
 
     template <class Visit>
     void visit_leaf(std::size_t leaf, Visit &&visit) const {

@@ -24,6 +24,35 @@ inline bool closes(std::span<const Chord> chords) {
            kRounding * (norm(first.end - first.begin) + norm(last.end - last.begin));
 }
 
+// Rows of segments that go on to one side, each beginning where the one before it ended or beyond:
+// the boxes of two that are no neighbours do not meet.
+class OneWay {
+  public:
+    explicit OneWay(std::span<const Chord> chords) : rows_(chords.size()) {
+        const auto way = [](double from, double to) { return (to > from) - (to < from); };
+        const auto goes_on = [&](double from, double to, double begin, double end) {
+            const int before = way(from, to);
+            return before != 0 && way(begin, end) == before && way(to, begin) != -before;
+        };
+        for (std::size_t i = 1; i < chords.size(); ++i) {
+            const auto &[a, b] = chords[i - 1];
+            const auto &[c, d] = chords[i];
+            rows_[i] = {goes_on(a.x, b.x, c.x, d.x) ? rows_[i - 1].x : i,
+                        goes_on(a.y, b.y, c.y, d.y) ? rows_[i - 1].y : i};
+        }
+    }
+
+    bool holds(std::size_t first, std::size_t last) const {
+        return rows_[last].x <= first || rows_[last].y <= first;
+    }
+
+  private:
+    struct Begins {
+        std::size_t x = 0, y = 0;  // of the row of each segment, by either coordinate
+    };
+    std::vector<Begins> rows_;
+};
+
 // Number of crossings among segments that come in order along a curve. A point on a segment lies to
 // one side of it, so that a way through a vertex crosses once, and one that only touches it not at
 // all or twice; of both sides the one with more counts, and mirrored segments cross as often.
@@ -49,12 +78,14 @@ inline int count_crossings(std::span<const Chord> chords) {
     };
     const std::size_t most_apart = n > 0 && closes(chords) ? n - 1 : n;
     int left = 0, right = 0;
-    tree.visit_pairs([&](std::size_t i, std::size_t k) {
+    const auto visit = [&](std::size_t i, std::size_t k) {
         if (k - i <= 1 || k - i >= most_apart || !boxes[i].meets(boxes[k])) return;
         const auto [on_left, on_right] = crosses(i, k);
         left += on_left;
         right += on_right;
-    });
+    };
+    const OneWay one_way(chords);
+    tree.visit_pairs(visit, [&](std::size_t i, std::size_t k) { return one_way.holds(i, k); });
     return std::max(left, right);
 }
 

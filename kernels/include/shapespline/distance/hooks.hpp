@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -81,7 +82,7 @@ class TurningSteps {
 
     void add_line(long owner, Vec2 begin, Vec2 end) {
         turn_to(owner, end - begin, begin);
-        steps_.push_back({0.0, norm(end - begin), begin, owner});
+        steps_.push_back({{}, norm(end - begin), begin, owner});
     }
 
     // Where hooks are; `data_turn` of a place and owner tells how much the data turn within 2.5
@@ -113,21 +114,48 @@ class TurningSteps {
     // turn by the limit itself, up to the grid of a pose: that is no excuse for a hook.
     static constexpr double kDataTurn = 0.25 * std::numbers::pi * (1 + 1e-3), kDataReach = 2.5;
 
+    // The turn from a direction to another; its angle is told where it is asked for, as few are.
+    struct Turn {
+        double across = 0.0, along = 1.0;
+
+        Turn() = default;
+        Turn(Vec2 a, Vec2 b) : across(cross(a, b)), along(dot(a, b)) {}
+        double angle() const {
+            if (std::isnan(angle_)) angle_ = std::atan2(across, along);
+            return angle_;
+        }
+        // The angle is no larger.
+        double most() const {
+            constexpr double kRounding = 1e-12;
+            return along > 0.0 ? (1.0 + kRounding) * std::fabs(across) / along : INFINITY;
+        }
+        bool is_none() const {
+            constexpr double kClearly = 1e-100;  // over this the angle is no zero
+            const bool clear = std::fabs(across) > kClearly && std::fabs(along) < 1.0 / kClearly;
+            return !clear && angle() == 0.0;
+        }
+        bool is_large() const {
+            const bool small = std::fabs(across) < kLargestTurn * along;  // tangents are larger
+            return !small && std::fabs(angle()) > kLargestTurn;
+        }
+
+      private:
+        mutable double angle_ = std::numeric_limits<double>::quiet_NaN();
+    };
     struct Step {
-        double turn, length;
+        Turn turn;
+        double length;
         Vec2 place;  // where it begins
         long owner;
     };
-
-    static double turn_between(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
 
     // The turn between parts.
     void turn_to(long owner, Vec2 direction, Vec2 place) {
         if (!(norm_sq(direction) > 0.0)) return;
         // Nothing is before the first part: the angle to no direction could be a half turn of -0.
         const bool first = direction_.x == 0.0 && direction_.y == 0.0;
-        const double turn = first ? 0.0 : turn_between(direction_, direction);
-        if (turn != 0.0) steps_.push_back({turn, 0.0, place, owner});
+        const Turn turn = first ? Turn() : Turn(direction_, direction);
+        if (!turn.is_none()) steps_.push_back({turn, 0.0, place, owner});
         direction_ = direction;
     }
 
@@ -135,8 +163,9 @@ class TurningSteps {
     void look(long owner, Point &&point, Velocity &&velocity, double from, double to, int depth,
               See &&see) {
         const Vec2 before = velocity(from), after = velocity(to), begin = point(from);
-        const double turn = turn_between(before, after), length = norm(point(to) - begin);
-        if (depth > 0 && std::fabs(turn) > kLargestTurn && length > kShort * tolerance_) {
+        const Turn turn(before, after);
+        const double length = norm(point(to) - begin);
+        if (depth > 0 && turn.is_large() && length > kShort * tolerance_) {
             const double middle = 0.5 * (from + to);
             look(owner, point, velocity, from, middle, depth - 1, see);
             look(owner, point, velocity, middle, to, depth - 1, see);
@@ -151,11 +180,17 @@ class TurningSteps {
     // One past the last of the fewest steps from i on that turn by more than a hook within one
     // tolerance; i if there are none.
     std::size_t sharp_from(std::size_t i) const {
+        double most = 0.0, way = 0.0;
+        for (std::size_t k = i; k < steps_.size() && most <= kHookTurn; ++k) {
+            way += steps_[k].length;
+            if (way > tolerance_) return i;
+            most += steps_[k].turn.most();
+        }
         double turn = 0.0, low = 0.0, high = 0.0, length = 0.0;
         for (std::size_t k = i; k < steps_.size(); ++k) {
             length += steps_[k].length;
             if (length > tolerance_) return i;
-            turn += steps_[k].turn;
+            turn += steps_[k].turn.angle();
             low = std::min(low, turn);
             high = std::max(high, turn);
             if (high - low > kHookTurn) return k + 1;

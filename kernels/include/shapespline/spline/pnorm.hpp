@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -47,8 +48,9 @@ class PNormFit {
         near_sq_ = kNear * kNear * limits.tolerance * limits.tolerance;
         best_ = std::numeric_limits<double>::infinity();
         damping_ = 1e-3;
+        prepared_.reset();
         current_.curve = window.curve;
-        Tracking<Degree>::span_curves(current_.curve, current_.curves);
+        Tracking<Degree>::span_curves(current_.curve, current_.bases, current_.curves);
         Tracking<Degree>::residuals(window, current_.curve, current_.curves, current_.residuals);
         Tracking<Degree>::sample(window, current_.curve, current_.curves,
                                  limits.samples_per_span, near_sq_, nullptr, current_.samples);
@@ -68,6 +70,7 @@ class PNormFit {
   private:
     struct Fitted {
         LocalCurve curve;
+        typename Tracking<Degree>::Bases bases;
         typename Tracking<Degree>::Curves curves;
         std::vector<Vec2> residuals;
         std::vector<CurveSample> samples;
@@ -116,8 +119,14 @@ class PNormFit {
         best_curve_ = current_.curve;
     }
 
+    // Not again for a stage with the unknowns of the one before.
+    void prepare(bool intervals_free) {
+        if (prepared_ != intervals_free) system_.prepare(*window_, intervals_free);
+        prepared_ = intervals_free;
+    }
+
     void linear_fit() {
-        system_.prepare(*window_, false);
+        prepare(false);
         if (system_.size() == 0) return;
         assemble(1, false, kLinearSampleWeight);
         ++iterations_;
@@ -129,7 +138,7 @@ class PNormFit {
     }
 
     void run_stage(const FitStage &stage) {
-        system_.prepare(*window_, stage.intervals_free);
+        prepare(stage.intervals_free);
         if (system_.size() == 0) return;
         damping_ = std::max(damping_, kRestartDamping);
         double value = merit(current_, stage.half_power);
@@ -204,7 +213,8 @@ class PNormFit {
                                      w * newton * n.y * n.y};
                 moments.add(s.local_parameter, weight, w * dot(s.residual, n) * n);
             }
-            if (j > begin || i > first_sample) system_.add(window, curve, k, moments);
+            if (j > begin || i > first_sample)
+                system_.add(window, curve, k, current_.bases[k], moments);
         }
     }
 
@@ -224,7 +234,7 @@ class PNormFit {
             next_.curve.points[p] += scale * Vec2{step_[at], step_[at + 1]};
         }
         if (intervals_free) move_intervals(scale);
-        Tracking<Degree>::span_curves(next_.curve, next_.curves);
+        Tracking<Degree>::span_curves(next_.curve, next_.bases, next_.curves);
         Tracking<Degree>::project(window, next_.curve, next_.curves, kFootSteps, next_.residuals);
     }
     void sample_next() {
@@ -267,6 +277,7 @@ class PNormFit {
     const FitLimits *limits_ = nullptr;
     double inverse_sq_ = 1.0, near_sq_ = 0.0, damping_ = 1e-3, best_ = 0.0;
     long iterations_ = 0;
+    std::optional<bool> prepared_;  // with intervals among the unknowns or without
     Fitted current_, next_;
     LocalCurve best_curve_;
     WindowSystem<Degree> system_;

@@ -26,7 +26,7 @@ class Proof {
         window_.first_sampled = low - window_.origin;
         window_.last_sampled = high - window_.origin;
         place_data(state, search, data, before, after);
-        Tracking<Degree>::span_curves(window_.curve, curves_);
+        Tracking<Degree>::span_curves(window_.curve, bases_, curves_);
         for (int j = 0; j < window_.n_data(); ++j)
             if (!Tracking<Degree>::reaches(window_, window_.curve, curves_, j, distance))
                 return false;
@@ -89,6 +89,7 @@ class Proof {
     }
 
     Window<Degree> window_;
+    typename Tracking<Degree>::Bases bases_;
     typename Tracking<Degree>::Curves curves_;
 };
 

@@ -311,10 +311,11 @@ class KnotRemoval {
             ++counts_.missed_speed;
             return false;
         }
-        const SpanRange before = with_beside(state_, {window.begin, window.end + 1});
-        const long hooks =
-            count_hooks(candidate_, shapes_.tried(candidate_, changed), search_, turning_) -
-            count_hooks(state_, shapes_.kept(state_, before), search_, turning_);
+        long hooks = count_hooks(candidate_, shapes_.tried(candidate_, changed), search_, turning_);
+        if (hooks > 0 || n_hooks_ > 0) {  // else there were none before either
+            const SpanRange before = with_beside(state_, {window.begin, window.end + 1});
+            hooks -= count_hooks(state_, shapes_.kept(state_, before), search_, turning_);
+        }
         counts_.missed_hooks += hooks > 0;
         if (hooks > 0) return false;
         const int n_crossings = n_crossings_ + new_crossings(part, all);

@@ -168,7 +168,7 @@ class KnotInsertion {
 
     bool split(SplineState<Degree> &state, int &next_id) {
         window_.open_whole(state, data_);
-        Tracking<Degree>::span_curves(window_.curve, curves_);
+        Tracking<Degree>::span_curves(window_.curve, bases_, curves_);
         Tracking<Degree>::residuals(window_, window_.curve, curves_, residuals_);
         Tracking<Degree>::sample(window_, window_.curve, curves_, limits_.samples_per_span,
                                  0.0, nullptr, samples_);
@@ -201,6 +201,7 @@ class KnotInsertion {
     FitLimits limits_;
     Window<Degree> window_;
     PNormFit<Degree> fit_;
+    typename Tracking<Degree>::Bases bases_;
     typename Tracking<Degree>::Curves curves_;
     std::vector<Vec2> residuals_;
     std::vector<CurveSample> samples_;

@@ -69,16 +69,17 @@ inline PolylineFoot nearest_around(Vec2 p, std::span<const Segment> segments, in
 template <int Degree>
 class Tracking {
   public:
+    using Bases = std::vector<SpanBasis<Degree>>;
     using Curves = std::vector<SpanCurve<Degree>>;
 
-    static void span_curves(const LocalCurve &curve, Curves &out) {
+    static void span_curves(const LocalCurve &curve, Bases &bases, Curves &out) {
         const int count = static_cast<int>(curve.points.size());
+        bases.resize(count);
         out.resize(count);
-        SpanBasis<Degree> basis;
         for (int k = Degree; k < count; ++k) {
             if (!(curve.intervals[k] > 0.0)) continue;
-            basis.evaluate(&curve.intervals[k]);
-            out[k].combine(basis, &curve.points[k - Degree]);
+            bases[k].evaluate(&curve.intervals[k]);
+            out[k].combine(bases[k], &curve.points[k - Degree]);
         }
     }
 

@@ -63,9 +63,7 @@ class WindowSystem {
 
     // Adds what the data and samples of local span k weigh.
     void add(const Window<Degree> &window, const LocalCurve &curve, int k,
-             const SpanMoments<Degree> &moments) {
-        SpanBasis<Degree> basis;
-        basis.evaluate(&curve.intervals[k]);
+             const SpanBasis<Degree> &basis, const SpanMoments<Degree> &moments) {
         for (int l = 0; l <= Degree; ++l) {
             const int slot = window.point_slot[k - Degree + l];
             points_[l] = slot == kNotFree ? -1 : point_unknown_[slot];
