@@ -77,3 +77,14 @@ def test_a_curve_is_moved_with_all_that_it_keeps():
     assert "axis-parallel" not in {
         one.name for one in head.as_fit_of(slanted, motion, None).regularities
     }
+
+
+def test_what_a_mirror_image_keeps_is_told_of_its_own_pieces():
+    corners = np.array([(0, 0), (9, 0), (9, 6), (4, 8), (0, 3)], dtype=float)
+    points = ss.Contour(corners, closed=True).resampled(150).points
+    head = placed(points)
+    other = placed((points @ MIRROR + [30.0, 2.0])[::-1])
+    fit = head.as_fit_of(other, motion_between(head, other, 0.1, 0.01), None)
+    level = [k for one in fit.regularities if one.name == "axis-parallel" for k in one.pieces]
+    assert len(level) == 3
+    assert all((np.ptp(fit.pieces[k].control_points, axis=0) == 0.0).any() for k in level)

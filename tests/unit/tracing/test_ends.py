@@ -51,6 +51,14 @@ def test_round_ends_stay_round(shape, turn, picture):
     assert is_as_drawn(shape, turn, picture, 1.0)
 
 
+@pytest.mark.parametrize("turn", [0.0, 17.0])
+def test_round_ends_in_a_light_scan_are_no_square_ones(turn):
+    # Pixels agree with both; they are surer of half a circle with as much ink.
+    outline = drawn_at("round 3", turn, PLACE)
+    (fit,) = fits_of(outline, "blurred by 0.7, grain of 4, JPEG 90")
+    assert is_outline(fit, outline)
+
+
 def test_tips_and_blunt_ends_get_no_square_ends():
     for tip in (1.0, 2.0):
         corners = np.array(

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from benchmarks.drawn.renderers import exact
 from benchmarks.drawn.shapes import gear, rounded
+from benchmarks.drawn.tables import rendered
 from benchmarks.drawn.truth import Line
 from shapely import Polygon
 
@@ -59,6 +60,13 @@ def test_fillets_at_every_corner_of_a_polygon_are_no_errors_of_its_picture(n, ra
     radii = [piece.arc.radius for piece in fit.pieces if piece.kind == "arc"]
     # What is known to a hundredth of a pixel is how far the middle of an arc is from its corner.
     assert abs(radii[0] - radius) * (1 / np.cos(np.pi / n) - 1) < 0.01
+
+
+def test_what_errors_round_at_few_corners_are_no_fillets():
+    # Those of a JPEG rounded two of this flag's ten.
+    _, picture = rendered("flag", SIZE, "JPEG 90")
+    (fit,) = ss.fit_shape(ss.trace(picture), character="drawn")
+    assert [piece.kind for piece in fit.pieces] == ["line"] * 10
 
 
 def filleted(outline, *, foot, tip):
