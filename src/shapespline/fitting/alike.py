@@ -24,7 +24,6 @@ from shapespline.values import Contour
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from shapespline.typing import FloatArray
     from shapespline.values import Fit
 
 # Level lines of copies are apart by no more than so many pixels, as their corners are cut off by
@@ -135,7 +134,7 @@ class _Group:
         if motion is None:
             return False
         motion = motion.nearer(head.placed, other.placed)
-        if not _agree(head.placed.images(motion, other.placed), other.placed, apart):
+        if not _agree(head.placed, motion, other.placed, apart):
             return False
         self.members.append(other)
         self.motions.append(motion)
@@ -211,11 +210,14 @@ def _is_near(fit: Fit, head: _Read, other: _Read) -> bool:
     return other.is_traced and fit.hausdorff_distance <= far
 
 
-def _agree(points: FloatArray, other: Placed, apart: float) -> bool:
-    """Whether points and a line are nowhere farther apart."""
-    image = polyline_curve(Contour.silently(points, closed=True))
-    pairs = (polyline_curve(other.line), points), (image, other.line.points)
-    return all(nearest(*pair).distances_sq.max() <= apart**2 for pair in pairs)
+def _agree(head: Placed, motion: Motion, other: Placed, apart: float) -> bool:
+    """Whether points of either line are nowhere farther from the other."""
+    ways = (head, motion, other), (other, motion.back(), head)
+    return all(
+        nearest(polyline_curve(to.line), one.images(one.some, way, to)).distances_sq.max()
+        <= apart**2
+        for one, way, to in ways
+    )
 
 
 def _groups(outlines: Sequence[_Read]) -> list[_Group]:

@@ -72,7 +72,8 @@ def _motion(head: Placed, other: Placed) -> Motion | None:
 
 def _miss(head: Placed, other: Placed, motion: Motion) -> float:
     """How far the data of one, moved, are from those of the other."""
-    image = polyline_curve(Contour.silently(head.images(motion, other), closed=True))
+    images = head.images(head.line.points, motion, other)
+    image = polyline_curve(Contour.silently(images, closed=True))
     return two_sided_distance(image, other.line).hausdorff_distance
 
 

@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 
 # Places of an outline that are compared (DRA-31).
 PLACES = 1024
+# Points that are looked at.
+MOST_POINTS = 2000
 # Rounds of Newton's method, which ends in two.
 ROUNDS = 3
 RIGHT = 0.5 * np.pi
@@ -67,7 +69,7 @@ class Motion(NamedTuple):
         """
         motion, curve = self, polyline_curve(other.line)
         for _ in range(ROUNDS):
-            points = head.images(motion, other)
+            points = head.images(head.some, motion, other)
             at = nearest(curve, points).parameters
             normals, middle = unit_normals(curve, at), points.mean(axis=0)
             x, y = (points - middle).T
@@ -126,9 +128,14 @@ class Placed:
         # Of many noisy points means are looked at, which are less far off than each.
         return max(Observed.of(contour, None).deviation, noise_level(contour))
 
-    def images(self, motion: Motion, other: Placed) -> FloatArray:
-        """The points of its line as those of the other."""
-        return (self.line.points - self.centre) @ motion.linear.T + other.centre + motion.shift
+    @property
+    def some(self) -> FloatArray:
+        """Points of its line, every so many-th of very many."""
+        return self.line.points[:: len(self.line) // MOST_POINTS + 1]
+
+    def images(self, points: FloatArray, motion: Motion, other: Placed) -> FloatArray:
+        """Points of its line as those of the other."""
+        return (points - self.centre) @ motion.linear.T + other.centre + motion.shift
 
     def pieces_at(self, motion: Motion, other: Placed) -> tuple[Piece, ...]:
         """The pieces of its fit as those of the other."""

@@ -33,7 +33,7 @@ def test_a_copy_is_where_it_is(angle, mirrored):
     assert motion is not None
     assert motion.is_mirror == mirrored
     assert motion.keeps_axes == (angle in (0.0, np.pi / 2, np.pi))
-    found = head.images(motion.nearer(head, other), other)
+    found = head.images(head.line.points, motion.nearer(head, other), other)
     there = np.roll(image, -77, axis=0)[::-1] if mirrored else np.roll(image, -77, axis=0)
     # The sagitta of a step, by which chords of places miss the outline, is 0.006.
     assert np.abs(found - there).max() < 0.01
@@ -58,7 +58,7 @@ def test_a_motion_and_its_way_back_leave_all_where_it_is():
     assert np.allclose(both.shift, 0.0, atol=1e-15)
     assert not both.is_mirror
     # As many points as these tell a shift to their error over the root of their number.
-    off = head.images(motion, other) - moved(blot(), 0.4)
+    off = head.images(head.line.points, motion, other) - moved(blot(), 0.4)
     assert np.abs(off.mean(axis=0)).max() < 4 * 0.02 / 300**0.5
 
 
