@@ -23,8 +23,9 @@ if TYPE_CHECKING:
     from shapespline.engines.drawn.segments import Segments
 
 # A line may be an arc if it is at most so many times as long as an arc beside it that it meets at
-# such an angle, or misses; between lines an arc has at least so many points, and either line is so
-# many times as long as what half of the arc takes of it (DRA-62).
+# such an angle, or misses, or as any fillet where lines meet it so; between lines an arc has at
+# least so many points, and either line is so many times as long as what half of the arc takes of
+# it, or as the arc (DRA-62, DRA-64).
 LONGEST, BREAK, FEWEST, SHORTEST = 1.5, np.radians([3.0, 30.0]), 3, 3.0
 
 
