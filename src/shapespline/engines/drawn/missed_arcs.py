@@ -91,7 +91,10 @@ def _fillet(model: Model, k: int, m: int) -> tuple[int, int] | None:
     """First and last point of the arc that touches two lines as far from their node as data are."""
     node, s = nodes_of(model)[k], model.row.stations
     half, off = 0.5 * turn_at(model, k, m, node), away_from_data(model, k, node)
-    reach = off / (1.0 / cos(half) - 1.0) * tan(half)
+    depth = 1.0 / cos(half) - 1.0  # of a node, in radii
+    if depth == 0.0:
+        return None
+    reach = off / depth * tan(half)
     i, j, _ = model.row.found[k]
     p, q, _ = model.row.found[m]
     begin = int(np.searchsorted(s, s[j] - reach, side="right")) - 1

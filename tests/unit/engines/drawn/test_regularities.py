@@ -40,6 +40,7 @@ def test_of_a_few_noisy_points_directions_and_tangents_may_be_far_off(form, draw
 
 
 def test_edges_of_small_letters_in_a_picture_lean_by_two_degrees():
-    # A 7 of 24 pixels in a word: its foot leaned by 1.74 degrees, and it was a smooth curve.
+    # A 7 of 24 pixels in a word: its foot leaned by 1.74 degrees, and it was a smooth curve. One of
+    # its seven edges is shorter than two pixels.
     fits = fit_shape(trace(rendered("Plate 7", 128)[1]))
-    assert ["line"] * 8 in [[piece.kind for piece in fit.pieces] for fit in fits]
+    assert ["line"] * 6 in [[piece.kind for piece in fit.pieces] for fit in fits]
