@@ -16,7 +16,7 @@ import numpy as np
 
 import shapespline as ss
 from benchmarks.drawn.few_points import is_outline
-from benchmarks.drawn.renderers import exact, jpeg, scanned
+from benchmarks.drawn.renderers import LESS_EXACT
 from benchmarks.drawn.shapes import box, keyhole, polygon, rounded
 from benchmarks.drawn.truth import Arc, Line, sampled
 
@@ -30,13 +30,7 @@ SIZE, COPIES, DRAWS = 256, 6, 2
 # Points of each outline, and their noise in parts of its box diagonal.
 POINTS, NOISE, STEP = 400, 0.005, 0.02
 WAYS = ("moved", "mirrored", "on a ring")
-PICTURES: dict[str, Callable[[list[Outline]], Picture]] = {
-    "exact coverage": lambda drawn: exact(drawn, SIZE),
-    "JPEG 90": lambda drawn: jpeg(exact(drawn, SIZE)),
-    "blurred by 0.5": lambda drawn: scanned(drawn, SIZE, 0.5, 0.0),
-    "blurred by 0.7, grain of 4, JPEG 90": lambda drawn: jpeg(scanned(drawn, SIZE, 0.7, 4.0)),
-    "blurred by 1, grain of 8, JPEG 90": lambda drawn: jpeg(scanned(drawn, SIZE, 1.0, 8.0)),
-}
+PICTURES = {name: partial(picture, size=SIZE) for name, picture in LESS_EXACT.items()}
 
 
 def window(inner: float, outer: float, spoke: float, fillet: float) -> Outline:

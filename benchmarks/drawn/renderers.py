@@ -277,3 +277,12 @@ RENDERERS: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
     "printed, badly scanned": printed_scanned,
     "photographed": photographed,
 }
+
+# Pictures that are less and less exact.
+LESS_EXACT: dict[str, Callable[[Sequence[Outline], int], Picture]] = {
+    "exact coverage": exact,
+    "JPEG 90": lambda drawn, size: jpeg(exact(drawn, size)),
+    "blurred by 0.5": lambda drawn, size: scanned(drawn, size, 0.5, 0.0),
+    "blurred by 0.7, grain of 4, JPEG 90": lambda drawn, size: jpeg(scanned(drawn, size, 0.7, 4.0)),
+    "blurred by 1, grain of 8, JPEG 90": lambda drawn, size: jpeg(scanned(drawn, size, 1.0, 8.0)),
+}

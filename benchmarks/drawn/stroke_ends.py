@@ -15,13 +15,12 @@ import numpy as np
 
 import shapespline as ss
 from benchmarks.drawn.few_points import is_outline
-from benchmarks.drawn.renderers import exact, jpeg, scanned
+from benchmarks.drawn.renderers import LESS_EXACT
 from benchmarks.drawn.shapes import box, polygon, slot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from benchmarks.drawn.renderers import Picture
     from benchmarks.drawn.truth import Array, Outline
 
 # Pixels: of the picture, and how long bars, stems and feet are, how wide stems; degrees.
@@ -30,13 +29,7 @@ SIZE, LENGTH, FOOT, STEM, TURNS = 96, 40.0, 24.0, 8.0, (0.0, 17.0)
 PLATE = tuple(one.moved(1.0, 0.0, np.array([11.2, 10.7])) for one in box(14.0, 14.0))
 PLATE_ENDS = 19.5
 PLACES = 8
-PICTURES: dict[str, Callable[[list[Outline]], Picture]] = {
-    "exact coverage": lambda drawn: exact(drawn, SIZE),
-    "JPEG 90": lambda drawn: jpeg(exact(drawn, SIZE)),
-    "blurred by 0.5": lambda drawn: scanned(drawn, SIZE, 0.5, 0.0),
-    "blurred by 0.7, grain of 4, JPEG 90": lambda drawn: jpeg(scanned(drawn, SIZE, 0.7, 4.0)),
-    "blurred by 1, grain of 8, JPEG 90": lambda drawn: jpeg(scanned(drawn, SIZE, 1.0, 8.0)),
-}
+PICTURES = {name: partial(picture, size=SIZE) for name, picture in LESS_EXACT.items()}
 
 
 def letter_t(thick: float) -> Outline:
