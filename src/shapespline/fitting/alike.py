@@ -15,7 +15,7 @@ import numpy as np
 
 from shapespline.engines.drawn import PRICE
 from shapespline.fitting.across import MISSED, MOST_OUTLINES
-from shapespline.fitting.copies import FEWEST_POINTS, is_as_good
+from shapespline.fitting.copies import is_as_good, may_be_copy
 from shapespline.fitting.motions import Motion, Placed, motion_between
 from shapespline.geometry import nearest, polyline_curve
 from shapespline.validation import median
@@ -50,7 +50,7 @@ def read_alike(fits: Sequence[Fit], tolerance: float | None) -> list[Fit]:
     tolerance : float or None
         The one asked for.
     """
-    able = [k for k, fit in enumerate(fits) if _may_be_copy(fit)]
+    able = [k for k, fit in enumerate(fits) if may_be_copy(fit)]
     found = list(fits)
     if not 1 < len(able) <= MOST_OUTLINES:
         return found
@@ -58,12 +58,6 @@ def read_alike(fits: Sequence[Fit], tolerance: float | None) -> list[Fit]:
         for place, fit in group.told_alike(tolerance):
             found[place] = fit
     return found
-
-
-def _may_be_copy(fit: Fit) -> bool:
-    """Whether nothing but its own points shaped the fit of a closed outline."""
-    enough = len(fit.contour) >= FEWEST_POINTS and fit.closed and fit.kept
-    return enough and fit.uncertainty is None and not len(fit.outliers)
 
 
 class _Read(NamedTuple):

@@ -59,10 +59,14 @@ def equal_copies(
 
 
 def _has_curves(fit: Fit) -> bool:
-    """Whether nothing but its own points shaped a fit of more than lines and arcs."""
-    simple = all(piece.kind in ("line", "arc") for piece in fit.pieces)
+    """Whether it may be a copy, of more than lines and arcs."""
+    return may_be_copy(fit) and any(piece.kind not in ("line", "arc") for piece in fit.pieces)
+
+
+def may_be_copy(fit: Fit) -> bool:
+    """Whether nothing but its own points shaped the fit of a closed outline."""
     enough = len(fit.contour) >= FEWEST_POINTS and fit.closed and fit.kept
-    return enough and not (simple or fit.uncertainty is not None or len(fit.outliers))
+    return enough and fit.uncertainty is None and not len(fit.outliers)
 
 
 def _motion(head: Placed, other: Placed) -> Motion | None:

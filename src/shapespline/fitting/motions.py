@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import cos, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shapespline.analysis import noise_level
-from shapespline.engines.drawn import Observed
+from shapespline.engines.drawn import Observed, turn_matrix
 from shapespline.fitting.verify import verified_fit
 from shapespline.geometry import (
     backwards,
@@ -77,7 +76,7 @@ class Motion(NamedTuple):
             columns = columns[:2] if self.keeps_axes else columns
             off = ((curve(at) - points) * normals).sum(axis=1)
             moved, turn = np.split(np.linalg.lstsq(np.stack(columns, axis=1), off)[0], [2])
-            turned = _linear(float(turn.sum()), is_mirror=False)
+            turned = turn_matrix(float(turn.sum()))
             shift = turned @ (other.centre + motion.shift - middle) + middle + moved - other.centre
             motion = Motion(turned @ motion.linear, shift, self.is_mirror)
         return motion
@@ -206,17 +205,8 @@ def motion_between(head: Placed, other: Placed, near: float, lengths: float) -> 
             miss_sq = (head.size + other.size - together) / PLACES
             if miss_sq > near**2:
                 continue
-            motion = Motion(_linear(settled, is_mirror=is_mirror), np.zeros(2), is_mirror)
+            motion = Motion(turn_matrix(settled, is_mirrored=is_mirror), np.zeros(2), is_mirror)
             if motion.keeps_axes:
                 return motion
             free.append((miss_sq, motion))
     return min(free, key=lambda one: one[0])[1] if free else None
-
-
-def _linear(angle: float, *, is_mirror: bool) -> FloatArray:
-    """The matrix of a turn, after a mirror at the first axis; exact for right angles."""
-    quarter = round(angle / RIGHT)
-    c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarter % 4]
-    if angle != quarter * RIGHT:
-        c, s = cos(angle), sin(angle)
-    return np.array([[c, s], [s, -c]] if is_mirror else [[c, -s], [s, c]])

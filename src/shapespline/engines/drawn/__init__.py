@@ -1,7 +1,7 @@
 """The drawn engine: lines, arcs and free-form runs, with what a drawing repeats."""
 
 from shapespline.engines.drawn.across import Feature, repeated_outlines
-from shapespline.engines.drawn.copies import Outline, Placement, placement_of
+from shapespline.engines.drawn.copies import Outline, Placement, placement_of, turn_matrix
 from shapespline.engines.drawn.engine import as_drawn, drawn_between_corners
 from shapespline.engines.drawn.judgement import FEW_ELEMENTS, LITTLE_FREE, POINTS_EACH
 from shapespline.engines.drawn.observed import ONE_BIT, Observed
@@ -30,4 +30,5 @@ __all__ = [
     "placement_of",
     "repeated_outlines",
     "simplified",
+    "turn_matrix",
 ]

@@ -103,7 +103,7 @@ def placement_of(
                 miss = float(abs(np.exp(1j * settled) * shown - image).max())
                 key = (0 if settled == 0.0 and not is_mirrored else rank, is_mirrored, miss)
                 if miss <= reach and (best is None or key < best[0]):
-                    linear = _linear(settled, is_mirrored)
+                    linear = turn_matrix(settled, is_mirrored=is_mirrored)
                     variance = _spread(shown, image, settled)
                     best = key, Placement(linear, places[at], is_reversed, miss, variance)
     return None if best is None else best[1]
@@ -141,7 +141,7 @@ def _settled(angle: float, error: float, n_steps: int) -> tuple[int, float]:
     return 3, angle
 
 
-def _linear(angle: float, is_mirrored: bool) -> FloatArray:
+def turn_matrix(angle: float, *, is_mirrored: bool = False) -> FloatArray:
     """The matrix of a turn, after a mirror at the first axis; exact for right angles."""
     c, s = unit_of(angle).tolist()
     return np.array([[c, s], [s, -c]] if is_mirrored else [[c, -s], [s, c]])
