@@ -33,6 +33,7 @@ struct FitLimits {
     double sample_weight;  // of a curve sample against a data point
     double least_interval, largest_interval;
     double stagnation_limit;  // leave a stage that would need this many times its present rate
+    bool samples_move = true;  // with the data, where these are few
 };
 
 template <int Degree>
@@ -52,8 +53,9 @@ class PNormFit {
         current_.curve = window.curve;
         Tracking<Degree>::span_curves(current_.curve, current_.bases, current_.curves);
         Tracking<Degree>::residuals(window, current_.curve, current_.curves, current_.residuals);
-        Tracking<Degree>::sample(window, current_.curve, current_.curves,
-                                 limits.samples_per_span, near_sq_, nullptr, current_.samples);
+        plan_.make(window, current_.curve, limits.samples_per_span, limits.samples_move);
+        Tracking<Degree>::sample(window, current_.curve, current_.curves, plan_, near_sq_, nullptr,
+                                 current_.samples);
         measure(current_);
         keep_if_best();
         if (linear_first) linear_fit();
@@ -238,8 +240,8 @@ class PNormFit {
         Tracking<Degree>::project(window, next_.curve, next_.curves, kFootSteps, next_.residuals);
     }
     void sample_next() {
-        Tracking<Degree>::sample(*window_, next_.curve, next_.curves, limits_->samples_per_span,
-                                 near_sq_, &current_.samples, next_.samples);
+        Tracking<Degree>::sample(*window_, next_.curve, next_.curves, plan_, near_sq_,
+                                 &current_.samples, next_.samples);
         measure(next_);
     }
 
@@ -280,6 +282,7 @@ class PNormFit {
     std::optional<bool> prepared_;  // with intervals among the unknowns or without
     Fitted current_, next_;
     LocalCurve best_curve_;
+    SamplePlan<Degree> plan_;
     WindowSystem<Degree> system_;
     std::vector<double> step_;
 };

@@ -263,6 +263,7 @@ class KnotRemoval {
             ++counts_.refits;
             FitLimits closer = settings_.fit;
             closer.samples_per_span = kRefitSamples;
+            closer.samples_move = false;
             make_candidate(r, n_beside);
             if (fit_candidate(r, effort, closer) > closer.enough || !accept_distance()) {
                 ++counts_.missed_bound;

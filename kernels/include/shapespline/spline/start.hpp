@@ -141,7 +141,9 @@ template <int Degree>
 class KnotInsertion {
   public:
     KnotInsertion(std::span<const Vec2> data, const FitLimits &limits)
-        : data_(data), limits_(limits) {}
+        : data_(data), limits_(limits) {
+        limits_.samples_move = false;  // they find more spans to halve (SPL-22)
+    }
 
     // Fits all of the curve and halves the worse half of the spans that are farther than `enough`
     // tolerances away, until none is; false when that does not come about.
@@ -170,8 +172,8 @@ class KnotInsertion {
         window_.open_whole(state, data_);
         Tracking<Degree>::span_curves(window_.curve, bases_, curves_);
         Tracking<Degree>::residuals(window_, window_.curve, curves_, residuals_);
-        Tracking<Degree>::sample(window_, window_.curve, curves_, limits_.samples_per_span,
-                                 0.0, nullptr, samples_);
+        plan_.make(window_, window_.curve, limits_.samples_per_span, limits_.samples_move);
+        Tracking<Degree>::sample(window_, window_.curve, curves_, plan_, 0.0, nullptr, samples_);
         const int m = state.n_points();
         std::vector<double> worst(state.closed ? m : m + Degree, 0.0);
         const auto note = [&](int local, double distance_sq) {
@@ -204,6 +206,7 @@ class KnotInsertion {
     typename Tracking<Degree>::Bases bases_;
     typename Tracking<Degree>::Curves curves_;
     std::vector<Vec2> residuals_;
+    SamplePlan<Degree> plan_;
     std::vector<CurveSample> samples_;
 };
 

@@ -14,19 +14,10 @@
 #include "shapespline/distance/newton.hpp"
 #include "shapespline/distance/polyline.hpp"
 #include "shapespline/curve/span_basis.hpp"
+#include "shapespline/spline/samples.hpp"
 #include "shapespline/spline/window.hpp"
 
 namespace shapespline::spline {
-
-// A point of the curve and the nearest point of the polyline around it.
-struct CurveSample {
-    int span;
-    double local_parameter;
-    Vec2 residual;
-    Vec2 normal;  // of the segment, or away from the vertex that is nearest
-    double distance_sq;
-    int segment;
-};
 
 struct PolylineFoot {
     double distance_sq;
@@ -110,30 +101,21 @@ class Tracking {
         restore_order(window, curve, curves, out);
     }
 
-    // Samples of every non-empty span, its beginning included: sharp tips sit exactly on a knot.
-    // `hints` are those of a curve nearby, or none; distances under `near` are rough. Returns the
-    // largest squared distance.
-    static double sample(const Window<Degree> &window, const LocalCurve &curve,
-                         const Curves &curves, int n_per_span, double near_sq,
-                         const std::vector<CurveSample> *hints, std::vector<CurveSample> &out) {
-        out.clear();
-        double largest = 0.0;
-        Bracket bracket{&window, &curve};
-        for (int k = window.first_sampled; k <= window.last_sampled; ++k) {
-            if (!(curve.intervals[k] > 0.0)) continue;
-            for (int i = 0; i < n_per_span; ++i) {
-                const double u = 2.0 * i / n_per_span - 1.0;
-                const Vec2 p = curves[k].point(u);
-                const auto near =
-                    hints ? nearest_around(p, window.segments, (*hints)[out.size()].segment,
-                                           kHintPatience, near_sq)
-                          : nearest_around(p, window.segments, bracket.segment(k, u), kPatience,
-                                           near_sq);
-                out.push_back({k, u, p - near.foot, near.normal, near.distance_sq, near.segment});
-                largest = std::max(largest, near.distance_sq);
-            }
+    // Samples as planned. `nearby` are those of a curve nearby, or none; distances under `near` are
+    // rough.
+    static void sample(const Window<Degree> &window, const LocalCurve &curve, const Curves &curves,
+                       SamplePlan<Degree> &plan, double near_sq,
+                       const std::vector<CurveSample> *nearby, std::vector<CurveSample> &out) {
+        plan.place(window, curve, nearby, out);
+        const int patience = nearby || plan.moves() ? kHintPatience : kPatience;
+        for (CurveSample &sample : out) {
+            const Vec2 p = curves[sample.span].point(sample.local_parameter);
+            const auto near = nearest_around(p, window.segments, sample.segment, patience, near_sq);
+            sample.residual = p - near.foot;
+            sample.normal = near.normal;
+            sample.distance_sq = near.distance_sq;
+            sample.segment = near.segment;
         }
-        return largest;
     }
 
     // Whether all of the sampled spans lie within a distance of the polyline around them. Rigorous:
