@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from shapespline.tracing.sides import Turns, Ways
     from shapespline.typing import FloatArray, IntArray
 
-# Larger radii, pixels, are told by the points of their arcs (TRC-29).
-LARGEST = 8.0
+# Larger radii, pixels, are told by the points of their arcs (TRC-29, TRC-49).
+LARGEST = 11.0
 # Lengths along the outline from the middle of an arc to where its sides are looked at, which it has
 # to end before by so much; how far sides are looked at, how far from the next turn they end, and
 # how far they may be from a line in the mean (TRC-29).

@@ -63,6 +63,9 @@ OF_CORNER, AGREES = 0.12, 0.006
 # Arcs are looked for no farther from a pixel that misses the outline by so much, and so many
 # deviations of the noise.
 MISSED, MISSED_NOISE, ABOUT = 0.02, 3.0, 2
+# From the longest sides, then from the nearest ones that no arc found so far disturbs, in an exact
+# picture once more: an arc may be longer than its guess the second time, too (TRC-49).
+TRIED = (False, True, True)
 # What misses them by more is not tried again from the same sides.
 HOPELESS = 0.05
 # Points between each side and its arc.
@@ -133,7 +136,7 @@ def _rounded(
         """The drawing with these and what was found so far."""
         return border_coverage(with_corners(outlines, found.joined(corners), closed), *field.shape)
 
-    for nearest in (False, True):
+    for nearest in TRIED if pixels.exact else TRIED[:2]:
         some, near, touching, shift = sides_found(
             ways, turns, room, np.where(left, least, np.inf), reaches, nearest=nearest
         )

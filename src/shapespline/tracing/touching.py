@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 # Half a turn and nearly so leads to the side on which the other one lies, whatever its angle.
 NEARLY_BACK = np.radians(150.0)
+# Circles that move out by one move their arcs by no less, or none is told; the sides of others turn
+# by less than 16 degrees (TRC-49).
+SHALLOWEST = 0.01
 # Points of an arc.
 ARC_POINTS = 9
 _ARC = np.linspace(0.0, 1.0, ARC_POINTS)
@@ -93,7 +96,7 @@ class Touching:
     def through(self, apex: FloatArray) -> FloatArray:
         """The number with which arcs are as far out as some points."""
         gap = ((apex - self.one[:, :2]) * self.out).sum(axis=1) - self.one[:, 2]
-        return gap / np.maximum(1.0 + self.free[:, 2], 0.1)
+        return gap / np.maximum(1.0 + self.free[:, 2], SHALLOWEST)
 
     def arcs(self, shift: FloatArray) -> Arcs:
         """Those of some numbers."""

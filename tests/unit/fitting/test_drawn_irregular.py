@@ -28,6 +28,13 @@ def test_a_measured_plate_that_repeats_nothing_is_its_lines_and_arcs(form, toler
     assert is_outline(fitted(points, tolerance), outline)
 
 
+@pytest.mark.parametrize("form", ["T", "U"])
+def test_exact_points_of_one_hold_after_they_are_shared_anew(form):
+    # Its lines and arcs were those that were read, but for points beside their nodes (DRA-65).
+    outline, points = measured(form, 3, 1000, 0.0)
+    assert is_outline(fitted(points, None), outline)
+
+
 @pytest.mark.parametrize(("form", "draw", "count"), [("T", 0, 200), ("T", 2, 400), ("Z", 1, 400)])
 def test_few_points_of_one_tell_it_without_a_tolerance(form, draw, count):
     outline, points = measured(form, draw, count, 0.0002)

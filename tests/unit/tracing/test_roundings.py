@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from benchmarks.drawn import renderers
+from benchmarks.drawn.shapes import rounded
 from benchmarks.drawn.tables import rendered
+from benchmarks.drawn.truth import sampled
+from scipy.spatial import cKDTree
 from tests.support.rendering import coverage, dark, polygon
 
 import shapespline as ss
+from shapespline.tracing.touching import Touching
 
 # Ink is counted by samples of a 32nd, so sides lie up to half of one beside their places: along the
 # r pixels of each that a corner takes that is r / 32 of ink together, and a radius is read off
@@ -95,3 +100,39 @@ def test_ends_of_few_chords_are_half_circles(radius, place):
     radii = [piece.arc.radius for piece in fit.pieces if piece.arc is not None]
     np.testing.assert_allclose(radii, radius, atol=0.1)
     assert np.ptp(radii) < 1e-9
+
+
+@pytest.mark.parametrize("turn", np.radians([25.0, 36.0, 45.0, 60.0, 90.0, 120.0]))
+@pytest.mark.parametrize("place", [(0.0, 0.0), (200.0, 30.0), (-3000.0, 5000.0)])
+def test_a_circle_through_the_middle_of_an_arc_is_that_of_the_arc(turn, place):
+    # Where sides turn by less than 52 degrees it depended on the place in the picture.
+    along = np.array([[1.0, 0.0], [np.cos(turn), np.sin(turn)]])
+    inward = along[1] - along[0]
+    inward /= np.hypot(*inward)
+    radius = 5.0
+    apex = np.array(place) + (radius / np.cos(0.5 * turn) - radius) * inward
+    sides = [
+        (np.array([place + way * u]), u[None]) for way, u in zip((-9.0, 9.0), along, strict=True)
+    ]
+    touching = Touching(sides)
+    arcs = touching.arcs(touching.through(apex[None]))
+    # Equations in places of such a size, divided by what a shallow turn leaves of them.
+    rounding = 1e-15 * (1.0 + np.hypot(*place)) / (1.0 - np.cos(0.5 * turn)) ** 2
+    assert abs(arcs.radii[0] - radius) <= 100 * rounding
+
+
+@pytest.mark.parametrize(("n", "radius"), [(7, 4.0), (8, 3.0), (8, 4.0), (8, 5.0), (9, 5.0)])
+@pytest.mark.parametrize("turn", [0.0, 0.2])
+def test_shallow_fillets_are_where_they_were_drawn(n, radius, turn):
+    angle = turn + 2 * np.pi * (np.arange(n) + 0.5) / n
+    corners = 128.3 + 100.0 * np.column_stack([np.cos(angle), np.sin(angle)])
+    outline = rounded(corners.tolist(), radius)
+    (contour,) = ss.trace(renderers.exact([outline], 256))
+    # A false corner in such a place is a tenth of a pixel off and more.
+    away, _ = cKDTree(sampled(outline, 0.002)).query(contour.points)
+    assert away.max() < 0.02
+    (fit,) = ss.fit_shape(ss.Shape([contour]), character="drawn")
+    radii = [piece.arc.radius for piece in fit.pieces if piece.arc is not None]
+    assert len(radii) == [piece.kind for piece in fit.pieces].count("line") == n
+    # What a fillet takes off its corner is told to a hundredth of a pixel.
+    np.testing.assert_allclose(radii, radius, atol=0.01 / (1.0 / np.cos(np.pi / n) - 1.0))

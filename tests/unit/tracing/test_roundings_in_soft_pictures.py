@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from benchmarks.drawn import equal_outlines
 from benchmarks.drawn.few_points import is_outline
 from benchmarks.drawn.fillets import PICTURES, drawn_at
 
@@ -47,3 +48,12 @@ def test_level_edges_that_jpeg_leaves_as_they_are_do_not_hide_its_ripples():
     # Along blocks of eight pixels a level edge keeps its grey; only its corners ripple.
     outline = drawn_at("box", 5.0, 0.0, 0)
     assert is_outline(fitted(outline, "JPEG 90"), outline)
+
+
+def test_tips_of_lenses_in_a_light_scan_are_no_arcs():
+    # Looked for a third time, some of them were arcs of 2.3 pixels (TRC-49).
+    lens = equal_outlines.SHAPES["lens"]
+    picture = equal_outlines.PICTURES["blurred by 0.7, grain of 4, JPEG 90"]
+    shape = ss.trace(picture(equal_outlines.laid_out([lens] * 6, 1, "on a ring")))
+    for fit in ss.fit_shape(shape, character="drawn"):
+        assert [piece.kind for piece in fit.pieces] == ["arc", "arc"]

@@ -292,18 +292,20 @@ def _of_row(
         model, n_few = Model.of(seen, fewer, model, ends), n_few + 1
     estimating = bool(np.isinf(tolerance))
     best = estimated(model, model.row, tolerance)
+    as_read = best is not None and best.model.row is model.row
     if best is not None and estimating:
         best = settled(best, tolerance)
-    for with_arcs in _with_arcs(model, estimating=estimating, whole=whole):
+    told = best is not None
+    for with_arcs in _with_arcs(model, estimating=estimating, whole=whole, told=told):
         other = estimated(model, with_arcs, tolerance)
         if other is not None:
             as_it_is = other.model.row is with_arcs
             if estimating:
                 other = settled(other, tolerance)
-            best = other if _is_taken(other, best, as_it_is=as_it_is) else best
+            if _is_taken(other, best, as_it_is=as_it_is):
+                best, as_read = other, False
     if best is not None:
         best = settled(best, tolerance)
-    as_read = best is not None and best.model.row is model.row
     for repeated_row in rows_repeated(seen, model.row if best is None else best.model.row):
         other = estimated(model, repeated_row, tolerance, whole=True)
         if other is None:
@@ -322,7 +324,7 @@ def _of_row(
     return None if whole and not as_read else begun(best, tolerance)
 
 
-def _with_arcs(model: Model, *, estimating: bool, whole: bool) -> Iterator[Segments]:
+def _with_arcs(model: Model, *, estimating: bool, whole: bool, told: bool) -> Iterator[Segments]:
     """Rows with arcs that the model's has not.
 
     None of a picture's row that is to hold as a ``whole``.
@@ -330,7 +332,7 @@ def _with_arcs(model: Model, *, estimating: bool, whole: bool) -> Iterator[Segme
     if not model.seen.pixel:
         yield from rows_with_fillets(model, estimating=estimating)
     elif not whole:
-        yield from rows_with_missed_arcs(model)
+        yield from rows_with_missed_arcs(model, contradicted=not told)
 
 
 def _is_taken(other: Estimated, best: Estimated | None, *, as_it_is: bool) -> bool:

@@ -29,13 +29,16 @@ if TYPE_CHECKING:
 LONGEST, BREAK, FEWEST, SHORTEST = 1.5, np.radians([3.0, 30.0]), 3, 3.0
 
 
-def rows_with_missed_arcs(model: Model) -> Iterator[Segments]:
-    """The row with arcs where nodes are no corners; nothing where they are."""
+def rows_with_missed_arcs(model: Model, *, contradicted: bool = False) -> Iterator[Segments]:
+    """The row with arcs where nodes are no corners; nothing where they are.
+
+    Where its data have `contradicted` it as it is all that may be fillets are.
+    """
     row, n = model.row, len(model.row.found)
     begins, kinds = ([segment[at] for segment in row.found] for at in (0, 2))
     missed = _missed_nodes(model)
     for k in model.at:
-        if model.kind(k) == LINE and _is_arc(model, k, missed):
+        if model.kind(k) == LINE and _is_arc(model, k, missed, contradicted):
             kinds[k] = ARC
             for node in ((k - 1) % n, k):  # which it mends for its neighbours, too
                 missed.pop(node)
@@ -63,7 +66,7 @@ def _missed_nodes(model: Model) -> dict[int, bool]:
     return found
 
 
-def _is_arc(model: Model, k: int, missed: dict[int, bool]) -> bool:
+def _is_arc(model: Model, k: int, missed: dict[int, bool], contradicted: bool) -> bool:
     """Whether a line between two such nodes may be one: beside an arc, or if data miss both."""
     n, length = len(model.row.found), data_length(model, k)
     before, after = (k - 1) % n, (k + 1) % n
@@ -75,7 +78,7 @@ def _is_arc(model: Model, k: int, missed: dict[int, bool]) -> bool:
     sides = min(data_length(model, one) for one in (before, after))
     if sides > SHORTEST * length:
         fillets = (data_length(model, one) for one in fillets_of(model.row))
-        return length <= LONGEST * max(fillets, default=0.0)
+        return contradicted or length <= LONGEST * max(fillets, default=0.0)
     are_off = missed[before] and missed[k]
     return are_off and length < min(data_length(model, one) for one in (before, after))
 

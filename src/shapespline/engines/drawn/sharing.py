@@ -1,4 +1,4 @@
-"""Measured points shared anew by the nodes between the elements that were found."""
+"""Points shared anew by the nodes between the elements that were found."""
 
 from __future__ import annotations
 
@@ -15,16 +15,21 @@ if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
     from shapespline.engines.drawn.segments import Segments
 
-# Measured points are shared anew so often, and an element keeps so many of them (DRA-25).
+# Points are shared anew so often, and an element keeps so many of them (DRA-25).
 SHARINGS, LEAST_SHARED = 3, 3
+# Of pictures those whose points are off by no more than this part of a pixel (DRA-65).
+SHARP = 0.01
 
 
 def shared_anew(model: Model) -> Model:
-    """The estimate of measured points that belong to the elements between whose nodes they lie.
+    """The estimate of points that belong to the elements between whose nodes they lie.
+
+    Of a blurred or noisy picture that of those that they were found with.
 
     Segments are found without joints, so some points beside a tangent one are on its wrong side.
     """
-    for _ in range(0 if model.seen.pixel else SHARINGS):
+    blurred = model.seen.deviation > SHARP * model.seen.pixel > 0.0
+    for _ in range(0 if blurred else SHARINGS):
         row = _between_nodes(model)
         if row is model.row or min(j - i for i, j, _ in row.found) < LEAST_SHARED:
             break

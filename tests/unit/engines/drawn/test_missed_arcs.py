@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from benchmarks.drawn.fillets import PICTURES, drawn_at
 from benchmarks.drawn.renderers import exact
 from benchmarks.drawn.shapes import gear, rounded
 from benchmarks.drawn.tables import rendered
@@ -77,3 +78,16 @@ def filleted(outline, *, foot, tip):
     plate = plate.buffer(foot, **round_ends).buffer(-foot, **round_ends)
     corners = np.array(plate.exterior.coords)[::-1]
     return [Line(begin, end) for begin, end in pairwise(corners)]
+
+
+@pytest.mark.parametrize(("picture", "radius", "place"), [("blurred by 0.5", 10.0, 1)])
+def test_chords_between_long_sides_that_data_contradict_are_fillets(picture, radius, place):
+    # Eight arcs of 7.9 pixels were chords of 3.9 between sides of 72, told by larger errors, as no
+    # fillet was told yet (DRA-65).
+    fit = ss.fit_shape(
+        ss.trace(PICTURES[picture]([drawn_at("octagon", radius, 17.0, place)])), character="drawn"
+    ).fits[0]
+    assert Counter(piece.kind for piece in fit.pieces) == {"line": 8, "arc": 8}
+    radii = np.array([piece.arc.radius for piece in fit.pieces if piece.arc is not None])
+    # A circle is told to two hundredths of a pixel at its middle.
+    np.testing.assert_allclose(radii, radius, atol=0.02 / (1.0 / np.cos(np.pi / 8) - 1.0))
