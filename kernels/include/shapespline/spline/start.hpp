@@ -142,7 +142,7 @@ class KnotInsertion {
   public:
     KnotInsertion(std::span<const Vec2> data, const FitLimits &limits)
         : data_(data), limits_(limits) {
-        limits_.samples_move = false;  // they find more spans to halve (SPL-22)
+        limits_.samples_move = false;  // else more spans are halved than need be (SPL-22)
     }
 
     // Fits all of the curve and halves the worse half of the spans that are farther than `enough`

@@ -22,7 +22,7 @@ from shapespline.engines.drawn.judgement import (
     tell_by_direction,
     without_few,
 )
-from shapespline.engines.drawn.missed_arcs import rows_with_missed_arcs
+from shapespline.engines.drawn.missed_arcs import with_missed_arcs
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn
@@ -295,9 +295,8 @@ def _of_row(
     as_read = best is not None and best.model.row is model.row
     if best is not None and estimating:
         best = settled(best, tolerance)
-    told = best is not None
-    for with_arcs in _with_arcs(model, estimating=estimating, whole=whole, told=told):
-        other = estimated(model, with_arcs, tolerance)
+    for with_arcs, supposed in _with_arcs(model, estimating=estimating, whole=whole):
+        other = estimated(model, with_arcs, tolerance, whole=supposed)
         if other is not None:
             as_it_is = other.model.row is with_arcs
             if estimating:
@@ -324,15 +323,19 @@ def _of_row(
     return None if whole and not as_read else begun(best, tolerance)
 
 
-def _with_arcs(model: Model, *, estimating: bool, whole: bool, told: bool) -> Iterator[Segments]:
-    """Rows with arcs that the model's has not.
+def _with_arcs(model: Model, *, estimating: bool, whole: bool) -> Iterator[tuple[Segments, bool]]:
+    """Rows with arcs that the model's has not, and whether they are supposed and hold as a whole.
 
     None of a picture's row that is to hold as a ``whole``.
     """
     if not model.seen.pixel:
-        yield from rows_with_fillets(model, estimating=estimating)
+        for row in rows_with_fillets(model, estimating=estimating):
+            yield row, False
     elif not whole:
-        yield from rows_with_missed_arcs(model, contradicted=not told)
+        for supposed in (False, True):
+            found = with_missed_arcs(model, supposed=supposed)
+            if found is not None:
+                yield found, supposed
 
 
 def _is_taken(other: Estimated, best: Estimated | None, *, as_it_is: bool) -> bool:

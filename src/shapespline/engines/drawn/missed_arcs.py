@@ -17,8 +17,6 @@ from shapespline.engines.drawn.judgement import SHALLOW, off_shallow
 from shapespline.engines.drawn.segments import ARC, LINE, Segment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from shapespline.engines.drawn.model import Model
     from shapespline.engines.drawn.segments import Segments
 
@@ -29,16 +27,16 @@ if TYPE_CHECKING:
 LONGEST, BREAK, FEWEST, SHORTEST = 1.5, np.radians([3.0, 30.0]), 3, 3.0
 
 
-def rows_with_missed_arcs(model: Model, *, contradicted: bool = False) -> Iterator[Segments]:
-    """The row with arcs where nodes are no corners; nothing where they are.
+def with_missed_arcs(model: Model, *, supposed: bool = False) -> Segments | None:
+    """The row with arcs where nodes are no corners; None where they are.
 
-    Where its data have `contradicted` it as it is all that may be fillets are.
+    All chords between long sides that may be fillets are if they are `supposed` to be.
     """
     row, n = model.row, len(model.row.found)
     begins, kinds = ([segment[at] for segment in row.found] for at in (0, 2))
     missed = _missed_nodes(model)
     for k in model.at:
-        if model.kind(k) == LINE and _is_arc(model, k, missed, contradicted):
+        if model.kind(k) == LINE and _is_arc(model, k, missed, supposed=supposed):
             kinds[k] = ARC
             for node in ((k - 1) % n, k):  # which it mends for its neighbours, too
                 missed.pop(node)
@@ -48,8 +46,9 @@ def rows_with_missed_arcs(model: Model, *, contradicted: bool = False) -> Iterat
         fillet = _fillet(model, k, m) if kinds[k] == kinds[m] == LINE else None
         if fillet is not None:
             arcs[k], begins[m] = fillet
-    if arcs or kinds != [segment.kind for segment in row.found]:
-        yield _row_with(row, begins, kinds, arcs, closed=model.seen.closed)
+    if not arcs and kinds == [segment.kind for segment in row.found]:
+        return None
+    return _row_with(row, begins, kinds, arcs, closed=model.seen.closed)
 
 
 def _missed_nodes(model: Model) -> dict[int, bool]:
@@ -66,7 +65,7 @@ def _missed_nodes(model: Model) -> dict[int, bool]:
     return found
 
 
-def _is_arc(model: Model, k: int, missed: dict[int, bool], contradicted: bool) -> bool:
+def _is_arc(model: Model, k: int, missed: dict[int, bool], *, supposed: bool) -> bool:
     """Whether a line between two such nodes may be one: beside an arc, or if data miss both."""
     n, length = len(model.row.found), data_length(model, k)
     before, after = (k - 1) % n, (k + 1) % n
@@ -78,7 +77,7 @@ def _is_arc(model: Model, k: int, missed: dict[int, bool], contradicted: bool) -
     sides = min(data_length(model, one) for one in (before, after))
     if sides > SHORTEST * length:
         fillets = (data_length(model, one) for one in fillets_of(model.row))
-        return contradicted or length <= LONGEST * max(fillets, default=0.0)
+        return supposed or length <= LONGEST * max(fillets, default=0.0)
     are_off = missed[before] and missed[k]
     return are_off and length < min(data_length(model, one) for one in (before, after))
 

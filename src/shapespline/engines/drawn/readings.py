@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from shapespline.engines.drawn.judgement import is_enough, share
-from shapespline.engines.drawn.missed_arcs import fillets_of, rows_with_missed_arcs
+from shapespline.engines.drawn.missed_arcs import fillets_of, with_missed_arcs
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.segments import ARC, FREE, LINE, segmented
 from shapespline.engines.drawn.supposed import NEARLY
@@ -96,7 +96,7 @@ def _with_fillets(seen: Observed, row: Segments) -> Segments:
     """Lines and arcs, some of these between two lines, with other arcs that its points tell."""
     if not fillets_of(row) or any(segment.kind == FREE for segment in row.found):
         return row
-    return next(rows_with_missed_arcs(Model.of(seen, row)), row)
+    return with_missed_arcs(Model.of(seen, row)) or row
 
 
 def _has_fillets_more(row: Segments, again: Segments) -> bool:

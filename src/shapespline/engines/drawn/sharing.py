@@ -24,9 +24,8 @@ SHARP = 0.01
 def shared_anew(model: Model) -> Model:
     """The estimate of points that belong to the elements between whose nodes they lie.
 
-    Of a blurred or noisy picture that of those that they were found with.
-
     Segments are found without joints, so some points beside a tangent one are on its wrong side.
+    Those of a blurred or noisy picture stay with the elements that they were found with.
     """
     blurred = model.seen.deviation > SHARP * model.seen.pixel > 0.0
     for _ in range(0 if blurred else SHARINGS):
