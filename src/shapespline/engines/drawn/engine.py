@@ -332,10 +332,11 @@ def _with_arcs(model: Model, *, estimating: bool, whole: bool) -> Iterator[tuple
         for row in rows_with_fillets(model, estimating=estimating):
             yield row, False
     elif not whole:
-        for supposed in (False, True):
-            found = with_missed_arcs(model, supposed=supposed)
-            if found is not None:
-                yield found, supposed
+        missed, more = (with_missed_arcs(model, supposed=supposed) for supposed in (False, True))
+        if missed is not None:
+            yield missed, False
+        if more is not None and (missed is None or more.found != missed.found):
+            yield more, True
 
 
 def _is_taken(other: Estimated, best: Estimated | None, *, as_it_is: bool) -> bool:
