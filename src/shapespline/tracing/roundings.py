@@ -15,6 +15,7 @@ such ends are round where anything else in the picture is.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -68,6 +69,8 @@ MISSED, MISSED_NOISE, ABOUT = 0.02, 3.0, 2
 TRIED = (False, True, True)
 # What misses them by more is not tried again from the same sides.
 HOPELESS = 0.05
+# A turn no farther from the middle of a bend is all of it if it turns by such a part (TRC-50).
+SAME, WHOLE = 1.25, 0.8
 # Points between each side and its arc.
 BETWEEN = 2
 _BETWEEN = (np.arange(BETWEEN) + 1.0)[:, None] / (BETWEEN + 1)
@@ -92,16 +95,44 @@ def rounded(
         What the ink of each is worth, of that of the picture.
     """
     now = border_coverage(outlines, *pixels.field.shape)
-    others = _rounded(outlines, drawn, pixels, inks, now, turns_of)
+    others, found = _rounded(outlines, drawn, pixels, inks, now, turns_of)
     if others is not outlines:
         now = border_coverage(others, *pixels.field.shape)
-    return list(_rounded(others, drawn, pixels, inks, now, _half_turns_of))
+    rest = partial(_bends_left, done=found.points)
+    return list(_rounded(others, drawn, pixels, inks, now, rest)[0])
 
 
-def _half_turns_of(ways: Ways) -> Turns:
-    """All turns, those that do not lead back as none: the others may have several middles."""
-    own, at, turn = bends_of(ways)
-    return Turns(own, at, np.where(turn >= NEARLY_BACK, turn, 0.0))
+def _bends_left(ways: Ways, done: FloatArray) -> Turns:
+    """All bends, those that one turn makes up or that are done as none, but for half turns."""
+    bends, turns = bends_of(ways), turns_of(ways)
+    own, at, turn = bends
+    left = ~_beside(ways.at(own, at), done)
+    if len(turns.own):
+        off, which = _nearest_along(ways, bends, turns)
+        left &= (off > SAME) | (turns.turn[which] < WHOLE * turn)
+    return Turns(own, at, np.where(left | (turn >= NEARLY_BACK), turn, 0.0))
+
+
+def _beside(points: FloatArray, places: FloatArray) -> BoolArray:
+    """Which points lie in the pixel of a place or one beside."""
+    around = np.stack(np.meshgrid((-1, 0, 1), (-1, 0, 1)), axis=-1).reshape(9, 2)
+    pixels = (np.floor(places)[:, None] + around).reshape(-1, 2)
+    x, y = np.floor(points).T
+    return np.isin(x + 1j * y, pixels[:, 0] + 1j * pixels[:, 1])
+
+
+def _nearest_along(ways: Ways, bends: Turns, turns: Turns) -> tuple[FloatArray, IntArray]:
+    """How far along its way each bend is from the nearest turn, and which that is."""
+    length = ways.lengths
+    begins = 3.0 * length.max() * np.arange(len(length))  # once more before each way and behind it
+    round_ = length[turns.own]
+    places = begins[turns.own] + turns.at + np.outer((-1.0, 0.0, 1.0), round_)
+    order = np.argsort(places.ravel())
+    places = places.ravel()[order]
+    mine = begins[bends.own] + bends.at
+    behind = np.clip(np.searchsorted(places, mine), 1, len(places) - 1)
+    nearest = np.where(mine - places[behind - 1] < places[behind] - mine, behind - 1, behind)
+    return np.abs(places[nearest] - mine), order[nearest] % len(turns.own)
 
 
 def _rounded(
@@ -111,23 +142,23 @@ def _rounded(
     inks: FloatArray,
     now: Covered,
     turns_in: Callable[[Ways], Turns],
-) -> Sequence[FloatArray]:
-    """Outlines with the arcs in some of their turns; the same if there are none."""
+) -> tuple[Sequence[FloatArray], Corners]:
+    """Outlines with the arcs in some of their turns, and these; the same if there are none."""
     field, reaches = pixels.field, Reaches.of(pixels)
     wrong_pixels = _wrong_pixels(now, pixels)
     used = _looked_at(outlines, drawn, wrong_pixels)
+    found = NONE._replace(runs=np.empty((0, ARC_POINTS + 2 * BETWEEN, 2)))
     if not used:
-        return outlines
+        return outlines, found
     ways = Ways([outlines[k] for k in used], [True] * len(used))
     turns = turns_in(ways)
     own, at, turn = turns
     if not turn.any():
-        return outlines
+        return outlines, found
     closed, whose = [True] * len(outlines), np.array(used)[own]
     after, ahead = next_turns(turns, ways)
     room = np.minimum(ahead, ahead[np.argsort(after)])
     reach = np.zeros(len(at))
-    found = NONE._replace(runs=np.empty((0, ARC_POINTS + 2 * BETWEEN, 2)))
     clear = False
     left = (turn > 0.0) & wrong_pixels.about(ways.at(own, at))
     hopeless, least = np.zeros(len(at)), np.zeros(len(at))
@@ -175,7 +206,7 @@ def _rounded(
         # What is far off disturbs what lies beside; where nothing was found, nothing changes.
         hopeless[some] = np.where((off > HOPELESS) | ~good.any(), near, 0.0)
         least[some[off > HOPELESS]] = 0.0
-    return with_corners(outlines, found, closed) if clear else outlines
+    return (with_corners(outlines, found, closed), found) if clear else (outlines, found)
 
 
 def _miss(arcs: Arcs, now: Covered, ink: FloatArray, pixels: ArcPixels) -> BoolArray:

@@ -127,6 +127,7 @@ class Ways:
         # A way begins a pixel after the one before it ends.
         self._starts = np.concatenate([[0.0], np.cumsum(self.lengths + 1.0)[:-1]])
         self._global = self._s + np.repeat(self._starts, [len(s) for s in stations])
+        self._turnings: dict[float, tuple[IntArray, IntArray, IntArray, FloatArray]] = {}
 
     def at(self, own: IntArray, where: FloatArray) -> FloatArray:
         """Points of some ways at arc lengths; beyond the end of an open one its end."""
@@ -139,6 +140,25 @@ class Ways:
         share = np.where(end > begin, where - begin, 0.0) / span
         a, b = self._points[left], self._points[left + 1]
         return np.asarray(a + share[..., None] * (b - a))
+
+    def turning(self, blur: float) -> tuple[IntArray, IntArray, IntArray, FloatArray]:
+        """By how much they turn at each step: the way, where its steps begin, how many, angles."""
+        if blur not in self._turnings:
+            self._turnings[blur] = self._turning(blur)
+        return self._turnings[blur]
+
+    def _turning(self, blur: float) -> tuple[IntArray, IntArray, IntArray, FloatArray]:
+        counts = np.ceil(self.lengths / STEP).astype(np.int64)
+        own = np.repeat(np.arange(len(counts)), counts)
+        starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
+        at = STEP * (np.arange(len(own)) - starts[own])
+        near, far = np.array(CHORD) + blur
+        before = self.at(own, at - near) - self.at(own, at - far)
+        after = self.at(own, at + far) - self.at(own, at + near)
+        turn = _turn(before, after)
+        # Nothing turns where a side leaves an open line.
+        turn[~self.closed[own] & ((at < far) | (at > self.lengths[own] - far))] = 0.0
+        return own, starts, counts, turn
 
 
 def meetings(
@@ -207,7 +227,7 @@ def _room(
 
 def turns_of(ways: Ways, soft: Softness = SHARP) -> Turns:
     """Where ways turn most; corners of blurred ones take longer."""
-    own, starts, counts, turn = _turning(ways, soft)
+    own, starts, counts, turn = ways.turning(soft.blur)
     reach = round((SAME_CORNER + soft.blur) / STEP)
     sharp = np.abs(turn)
     highest = sharp.copy()
@@ -243,7 +263,7 @@ def bends_of(ways: Ways) -> Turns:
 
     A round end of some pixels turns as much in several places of which its middle may be none.
     """
-    _, starts, counts, turn = _turning(ways, SHARP)
+    _, starts, counts, turn = ways.turning(SHARP.blur)
     sides = np.where(np.abs(turn) > LEAST_TURN, np.sign(turn), 0.0)
     which, begins, ends = [], [], []
     for k, (first, n) in enumerate(zip(starts.tolist(), counts.tolist(), strict=True)):
@@ -264,21 +284,6 @@ def bends_of(ways: Ways) -> Turns:
     half = 0.5 * LONG_STEP
     before, after = (ways.at(of, at + half) - ways.at(of, at - half) for at in (first, last))
     return Turns(of, 0.5 * (first + last), np.abs(_turn(before, after)))
-
-
-def _turning(ways: Ways, soft: Softness) -> tuple[IntArray, IntArray, IntArray, FloatArray]:
-    """By how much ways turn at each step: the way, where its steps begin, how many, the angle."""
-    counts = np.ceil(ways.lengths / STEP).astype(np.int64)
-    own = np.repeat(np.arange(len(counts)), counts)
-    starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    at = STEP * (np.arange(len(own)) - starts[own])
-    near, far = np.array(CHORD) + soft.blur
-    before = ways.at(own, at - near) - ways.at(own, at - far)
-    after = ways.at(own, at + far) - ways.at(own, at + near)
-    turn = _turn(before, after)
-    # Nothing turns where a side leaves an open line.
-    turn[~ways.closed[own] & ((at < far) | (at > ways.lengths[own] - far))] = 0.0
-    return own, starts, counts, turn
 
 
 def _turn(before: FloatArray, after: FloatArray) -> FloatArray:

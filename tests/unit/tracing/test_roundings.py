@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from benchmarks.drawn import renderers
+from benchmarks.drawn.shapes import box as drawn_box
 from benchmarks.drawn.shapes import rounded
 from benchmarks.drawn.tables import rendered
 from benchmarks.drawn.truth import sampled
@@ -17,6 +18,7 @@ from shapespline.tracing.touching import Touching
 # Ink is counted by samples of a 32nd, so sides lie up to half of one beside their places: along the
 # r pixels of each that a corner takes that is r / 32 of ink together, and a radius is read off
 # r^2 (2 - pi / 2) / 2 of it.
+SIZE = 256
 READ = 1 / 32 / (2 - np.pi / 2)
 
 
@@ -136,3 +138,18 @@ def test_shallow_fillets_are_where_they_were_drawn(n, radius, turn):
     assert len(radii) == [piece.kind for piece in fit.pieces].count("line") == n
     # What a fillet takes off its corner is told to a hundredth of a pixel.
     np.testing.assert_allclose(radii, radius, atol=0.01 / (1.0 / np.cos(np.pi / n) - 1.0))
+
+
+@pytest.mark.parametrize("picture", ["exact coverage", "blurred by 1", "scanned, JPEG 90"])
+@pytest.mark.parametrize("place", range(4))
+def test_all_fillets_of_seven_pixels_are_one(picture, place):
+    # As long an arc turns alike in several places: the outline had two turns there, and no sides
+    # between them, so one of four fillets stayed as blurred as it was, with a break beside it.
+    moved = SIZE / 2 + np.random.default_rng(place).uniform(-0.5, 0.5, 2)
+    outline = [one.moved(1.0, 0.0, moved) for one in drawn_box(200.0, 120.0, 6.72)]
+    (fit,) = ss.fit_shape(ss.trace(renderers.RENDERERS[picture]([outline], SIZE)))
+    radii = [piece.arc.radius for piece in fit.pieces if piece.arc is not None]
+    assert len(radii) == 4
+    assert len(fit.pieces) == 8
+    assert np.ptp(radii) < 1e-9 * radii[0]
+    assert sum(one.name == "tangent" for one in fit.regularities) == 8
