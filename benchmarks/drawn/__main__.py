@@ -19,6 +19,7 @@ from benchmarks.drawn.measuring import measuring_table
 from benchmarks.drawn.page import write_page
 from benchmarks.drawn.pixel_chains import chains_table
 from benchmarks.drawn.profiles import clean_table, profiles_table
+from benchmarks.drawn.short_sides import short_sides_table
 from benchmarks.drawn.stroke_ends import stroke_ends_table
 from benchmarks.drawn.tables import pictures_tables, recovered_table, sampled_table
 
@@ -67,6 +68,14 @@ Small fillets in pictures of 256 pixels that are not exact (`python -m benchmark
 box of 200 x 120 pixels, a hexagon and an octagon of 100 about the middle, level or turned by 17
 degrees, radii in pixels. How many of eight places have the lines and arcs that were drawn and
 nothing else.
+
+"""
+
+SHORT = """
+Short sides between fillets (`python -m benchmarks.drawn.short_sides`): between arcs of 12 and 28
+pixels, of a box 28 pixels wide with fillets of 8, a step with fillets of 8 inside and outside; the
+same pictures, level and turned by 17 degrees. How many of sixteen places have the lines and arcs
+that were drawn and nothing else.
 
 """
 
@@ -137,7 +146,8 @@ def main() -> None:
     points += f"{limits_table()}{PROFILES}{profiles_table()}{CLEAN}{clean_table()}"
     points += f"{RANDOM}{random_plates.clean_table()}\n{random_plates.noisy_table()}"
     points += f"{NOISY}{random_plates.within_table()}{TRACED}{random_plates.pictures_table()}"
-    points += f"{FILLETS}{fillets_table()}{ENDS}{stroke_ends_table()}"
+    points += f"{FILLETS}{fillets_table()}{SHORT}{short_sides_table()}"
+    points += f"{ENDS}{stroke_ends_table()}"
     points += f"{EQUAL}{equal_table()}\n{twins_table()}"
     points += f"{MEASURING}{measuring_table()}{CHAINS}{chains_table()}"
     points += f"{FEW}{measured_table()}{EXPORTED}{exported_table()}{ORGANIC}{organic_table()}"

@@ -23,6 +23,7 @@ from shapespline.engines.drawn.judgement import (
     without_few,
 )
 from shapespline.engines.drawn.missed_arcs import with_missed_arcs
+from shapespline.engines.drawn.missed_lines import with_missed_lines
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.observed import Observed
 from shapespline.engines.drawn.parts import Drawn
@@ -332,6 +333,8 @@ def _with_arcs(model: Model, *, estimating: bool, whole: bool) -> Iterator[tuple
         for row in rows_with_fillets(model, estimating=estimating):
             yield row, False
     elif not whole:
+        if (with_lines := with_missed_lines(model)) is not model.row:
+            yield with_lines, False
         missed, more = (with_missed_arcs(model, supposed=supposed) for supposed in (False, True))
         if missed is not None:
             yield missed, False

@@ -48,7 +48,8 @@ def with_missed_arcs(model: Model, *, supposed: bool = False) -> Segments | None
             arcs[k], begins[m] = fillet
     if not arcs and kinds == [segment.kind for segment in row.found]:
         return None
-    return _row_with(row, begins, kinds, arcs, closed=model.seen.closed)
+    more = {k: (begin, ARC) for k, begin in arcs.items()}
+    return row_with(row, begins, kinds, more, closed=model.seen.closed)
 
 
 def _missed_nodes(model: Model) -> dict[int, bool]:
@@ -106,13 +107,18 @@ def _fillet(model: Model, k: int, m: int) -> tuple[int, int] | None:
     return begin, end
 
 
-def _row_with(
-    row: Segments, begins: list[int], kinds: list[int], arcs: dict[int, int], *, closed: bool
+def row_with(
+    row: Segments,
+    begins: list[int],
+    kinds: list[int],
+    more: dict[int, tuple[int, int]],
+    *,
+    closed: bool,
 ) -> Segments:
-    """Segments that begin there and are these, with arcs that begin behind some of them."""
+    """Segments that begin there and are these, with others that begin behind some of them."""
     last, parts = row.found[-1].end, [*zip(begins, kinds, strict=True)]
-    for k in sorted(arcs, reverse=True):
-        parts.insert(k + 1, (arcs[k], ARC))
+    for k in sorted(more, reverse=True):
+        parts.insert(k + 1, more[k])
     ends = [*(begin for begin, _ in parts[1:]), last]
     found = (Segment(i, j, kind) for (i, kind), j in zip(parts, ends, strict=True))
     row = row._replace(found=tuple(found))

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from shapespline.engines.drawn.judgement import is_enough, share
 from shapespline.engines.drawn.missed_arcs import fillets_of, with_missed_arcs
+from shapespline.engines.drawn.missed_lines import with_missed_lines
 from shapespline.engines.drawn.model import Model
 from shapespline.engines.drawn.segments import ARC, FREE, LINE, segmented
 from shapespline.engines.drawn.supposed import NEARLY
@@ -64,7 +65,7 @@ def read_as(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segmen
         if _has_fillets_more(fillets, again):
             yield seen, fillets, True
         if row.n_parameters(long) <= CHORDS * again.n_parameters(long):
-            yield less, again, True
+            yield less, with_missed_lines(Model.of(less, again)), True
             yield seen, row, False
     else:
         yield seen, row, False
