@@ -19,9 +19,11 @@ from shapespline.engines.drawn.judgement import (
     has_blunt_arcs,
     is_plain,
     is_short,
+    misfitting,
     tell_by_direction,
     without_few,
 )
+from shapespline.engines.drawn.long_edges import long_edges
 from shapespline.engines.drawn.missed_arcs import with_missed_arcs
 from shapespline.engines.drawn.missed_lines import with_missed_lines
 from shapespline.engines.drawn.model import Model
@@ -104,7 +106,10 @@ def as_drawn(
     ends = contour.points[[0, -1]] if holds_ends and not contour.closed else None
     best = _circle(rough(seen, tolerance) or seen)
     if best is None:
-        best = _first_told(read_as(seen, tolerance), ends, regularities, tolerance)
+        row = segmented(seen)
+        best = _first_told(read_as(seen, row, tolerance), ends, regularities, tolerance)
+        if best is None and accuracy is not None:
+            best = _edges(seen, row, regularities, tolerance)
     if accuracy is not None:
         return best
 
@@ -117,6 +122,23 @@ def as_drawn(
     best = _by_size(best, others)
     simplest = SIMPLEST_CLOSED if seen.closed else SIMPLEST_OPEN
     return _simplest(best, suppositions(contour, seen), read, simplest)
+
+
+def _edges(
+    seen: Observed, row: Segments, regularities: Collection[str], tolerance: float
+) -> Drawn | None:
+    """Long edges, one of them level, of a picture's outline that tells of no drawing otherwise."""
+    edges = None if seen.one_bit or not seen.closed else long_edges(row, seen)
+    if edges is None:
+        return None
+    model = Model.of(seen, edges)
+    if (edges := at_corners(model)) is not model.row:
+        model = Model.of(seen, edges, model)
+    found = Search(model, NAMES).run()
+    is_level = any(one.name == "axis-parallel" for one in found)
+    if not is_level or misfitting(model, tolerance):
+        return None
+    return _finished(Estimated(model, found, told=True, wide=False), regularities, tolerance)
 
 
 def _in_turn(found: Iterable[Drawn | None]) -> Drawn | None:

@@ -46,14 +46,17 @@ def rough(seen: Observed, tolerance: float) -> Observed | None:
     return seen.rougher(factor) if seen.pixel and factor >= LEAST_ROUGH else None
 
 
-def read_as(seen: Observed, tolerance: float) -> Iterator[tuple[Observed, Segments, bool]]:
-    """The outline as its picture shows it, or less exact where that is much shorter or straighter.
+def read_as(
+    seen: Observed, row: Segments, tolerance: float
+) -> Iterator[tuple[Observed, Segments, bool]]:
+    """The outline as these segments, or taken for less exact where that is shorter or straighter.
 
-    What is a little shorter counts if it holds as a whole: lines through a bend are, too. What
-    tells no drawing may do so if it is taken for less exact: its elements are estimated anew with
-    larger errors, then looked for with these, then with errors that are slow, too.
+    It has to be much shorter; what is a little shorter counts if it holds as a whole: lines through
+    a bend are, too. What tells no drawing may do so if it is taken for less exact: its elements are
+    estimated anew with larger errors, then looked for with these, then with errors that are slow,
+    too.
     """
-    row, less = segmented(seen), rough(seen, tolerance)
+    less = rough(seen, tolerance)
     if less is None:
         yield from _nearly_exact(seen, row)
         yield seen, row, False
