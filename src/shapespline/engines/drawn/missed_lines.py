@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shapespline.engines.drawn.ends import ON, nodes_of
+from shapespline.engines.drawn.ends import ON, nodes_of, off_by
 from shapespline.engines.drawn.joints import turn_at
 from shapespline.engines.drawn.missed_arcs import BREAK, FEWEST, row_with
 from shapespline.engines.drawn.segments import ARC, LINE
@@ -19,8 +19,9 @@ if TYPE_CHECKING:
     from shapespline.engines.drawn.model import Model
     from shapespline.engines.drawn.segments import Segments
 
-# Arcs that a short line joins seem to meet at no larger an angle (DRA-66).
-STEEPEST = float(np.radians(90.0))
+# Arcs that a short line joins seem to meet at no larger an angle, and the squares of its points'
+# distances are so much smaller than from the arcs (DRA-66).
+STEEPEST, BETTER = float(np.radians(90.0)), 0.25
 
 
 def with_missed_lines(model: Model) -> Segments:
@@ -63,4 +64,6 @@ def _line_between(model: Model, k: int, m: int) -> tuple[int, int] | None:
         return None
     points = np.vstack([model.row.points[begin + 1 : j], model.row.points[p:end]])
     off = np.abs((points - touches[0]) @ normal)
-    return (begin, end) if off.max() <= ON * model.seen.largest_deviation else None
+    by_arcs = np.minimum(*(np.abs(off_by(model, one, points)) for one in (k, m)))
+    nearer = float(off @ off) < BETTER * float(by_arcs @ by_arcs)
+    return (begin, end) if nearer and off.max() <= ON * model.seen.largest_deviation else None
