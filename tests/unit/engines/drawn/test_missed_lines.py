@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from benchmarks.drawn.equal_outlines import COPIES, SHAPES, laid_out, told
 from benchmarks.drawn.few_points import is_outline
 from benchmarks.drawn.fillets import PICTURES
 from benchmarks.drawn.found import Found
@@ -60,6 +61,13 @@ def test_arcs_that_meet_at_an_angle_keep_it(degrees):
     assert is_outline(fits[0], outline)
     away = np.hypot(*(Found.of_fits(fits).breaks - outline[0].end).T)
     assert away.min() < 0.05
+
+
+def test_fillets_that_go_over_into_a_large_arc_do_so_without_a_line():
+    # The tangent of both lies as near to the points as they are known, on one of six openings of a
+    # wheel, which were all read as that one.
+    drawn = laid_out([SHAPES["window"]] * COPIES, 1, "mirrored")
+    assert told(drawn, "blurred by 0.5").right == COPIES
 
 
 def length_of(piece):
